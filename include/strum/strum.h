@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The whole public interface of libstrum. */
+#ifndef STRUM_STRUM_H
+#define STRUM_STRUM_H
+
+#include <strum/status.h>
+#include <strum/catenary.h>
+
+#endif

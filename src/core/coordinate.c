@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/coordinate.h"
+
+#include <math.h>
+
+/* Between 2, which makes the waves of a deep cable even, and infinity, which is linear: 2.5
+ * keeps the lowest point, where the coefficients vary most, in sight of the functions. */
+#define STRETCH 2.5
+
+coordinate coordinate_linear(const strum_cable *cable)
+{
+    return (coordinate){.chi_m = cable->chi_m, .mu = cable->mu};
+}
+
+coordinate coordinate_stretched(const strum_cable *cable)
+{
+    coordinate c = coordinate_linear(cable);
+    const double first = sinh((c.chi_m - c.mu) / STRETCH),
+                 last = sinh((c.chi_m + c.mu) / STRETCH);
+    c.stretch = STRETCH;
+    c.middle = c.chi_m == 0 ? 0 : (first + last) / 2;
+    c.half = (last - first) / 2;
+    return c;
+}
+
+double coordinate_offset(const coordinate *c, double x)
+{
+    if (c->stretch == 0)
+        return c->mu * x;
+    return c->stretch * asinh(c->middle + c->half * x) - c->chi_m;
+}
+
+double coordinate_slope(const coordinate *c, double x)
+{
+    return c->stretch == 0 ? c->mu : c->stretch * c->half / hypot(1, c->middle + c->half * x);
+}
+
+double coordinate_bend(const coordinate *c, double x)
+{
+    const double y = c->middle + c->half * x;
+    return c->stretch == 0 ? 0 : -c->half * y / (1 + y * y);
+}
+
+double coordinate_x(const coordinate *c, double chi)
+{
+    const double x = c->stretch == 0 ? (chi - c->chi_m) / c->mu
+                                     : (sinh(chi / c->stretch) - c->middle) / c->half;
+    return fmin(fmax(x, -1), 1);
+}
+
+double coordinate_pole(const coordinate *c)
+{
+    return c->stretch == 0 ? M_PI_2 / c->mu : sin(M_PI_2 / c->stretch) / c->half;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * From x in [-1, 1], where the Legendre functions live, to the slope parameter chi. Linear as a
+ * rule. On a deep cable transverse waves shorten as sqrt(cosh chi) towards the ends; where many
+ * of them are wanted, chi = A asinh(m + r x) evens them out and halves or thirds the number of
+ * functions they need.
+ */
+#ifndef CORE_COORDINATE_H
+#define CORE_COORDINATE_H
+
+#include <strum/catenary.h>
+
+typedef struct coordinate {
+    double chi_m, mu;
+    double stretch;      /* A; 0: linear */
+    double middle, half; /* m, r */
+} coordinate;
+
+coordinate coordinate_linear(const strum_cable *cable);
+coordinate coordinate_stretched(const strum_cable *cable);
+
+/* chi(x) - chi_m, without cancellation where the coordinate is linear. */
+double coordinate_offset(const coordinate *c, double x);
+/* dchi/dx and its logarithmic derivative. */
+double coordinate_slope(const coordinate *c, double x);
+double coordinate_bend(const coordinate *c, double x);
+/* x(chi), within [-1, 1]. */
+double coordinate_x(const coordinate *c, double chi);
+/* Distance from the real axis, in x, of the nearest singularity of the cable's coefficients,
+ * chi = i pi/2. */
+double coordinate_pole(const coordinate *c);
+
+#endif

@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Modes of a cable: sizes, the agreement of two of them, order and number. */
+#include "core/spectrum.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/displacement.h"
+
+strum_status spectrum_roots(const strum_cable *cable, const coordinate *x, strum_plane plane,
+                            inplane_form form, int size, int block, int want, bool vectors,
+                            arena *a, root_list *list, root_list *inner, inplane_part *parts[3])
+{
+    if (plane == STRUM_OUT_OF_PLANE)
+        return outplane_roots(cable, x, form == STRUM_CLAMPED_FORM, size, block, want, vectors,
+                              a, list, inner);
+    const bool level = cable->chi_m == 0;
+    const strum_symmetry first = level ? STRUM_SYMMETRIC : STRUM_NO_SYMMETRY;
+    const strum_symmetry last = level ? STRUM_ANTISYMMETRIC : STRUM_NO_SYMMETRY;
+    for (strum_symmetry symmetry = first; symmetry <= last; symmetry++) {
+        inplane_assembly *m = arena_alloc(a, 1, sizeof *m);
+        if (m == NULL)
+            return STRUM_ERR_MEMORY;
+        strum_status status = inplane_assemble(cable, x, symmetry, form, size, a, m);
+        if (status == STRUM_OK)
+            status = inplane_roots(cable, m, form, size, want, vectors, a, list);
+        if (status == STRUM_OK && inner != NULL)
+            status = inplane_roots(cable, m, form, block, want, false, a, inner);
+        if (status != STRUM_OK)
+            return status;
+        if (parts != NULL)
+            parts[symmetry] = &m->part;
+    }
+    return STRUM_OK;
+}
+
+static int by_frequency(const void *left, const void *right)
+{
+    const root *l = left, *r = right;
+    if (cimag(l->s) != cimag(r->s))
+        return cimag(l->s) < cimag(r->s) ? -1 : 1;
+    return creal(l->s) < creal(r->s) ? -1 : creal(l->s) > creal(r->s);
+}
+
+static int by_value(const void *left, const void *right)
+{
+    const double l = *(const double *)left, r = *(const double *)right;
+    return l < r ? -1 : l > r;
+}
+
+/* No decay rate of an overdamped motion exceeds the largest ratio of damping to mass. */
+static double largest_rate(const strum_cable *cable, strum_plane plane)
+{
+    const double normal = cable->eta_n / cable->mass_n;
+    return plane == STRUM_OUT_OF_PLANE ? normal : fmax(normal, cable->eta_t / cable->mass_t);
+}
+
+strum_status spectrum_sort(const strum_cable *cable, strum_plane plane, const root_list *list,
+                           int count, arena *a, root_list *modes, double **decays,
+                           int *overdamped)
+{
+    const size_t room = (size_t)(list->count > 0 ? list->count : 1);
+    modes->items = arena_alloc(a, room, sizeof *modes->items);
+    modes->count = 0;
+    *decays = arena_doubles(a, room);
+    *overdamped = 0;
+    if (modes->items == NULL || *decays == NULL)
+        return STRUM_ERR_MEMORY;
+    const double limit = largest_rate(cable, plane) * (1 + 1e-9);
+    for (int i = 0; i < list->count; i++) {
+        const double _Complex s = list->items[i].s;
+        if (cimag(s) > 0)
+            modes->items[modes->count++] = list->items[i];
+        else if (-creal(s) > 0 && -creal(s) <= limit)
+            (*decays)[(*overdamped)++] = -creal(s);
+    }
+    qsort(modes->items, (size_t)modes->count, sizeof *modes->items, by_frequency);
+    qsort(*decays, (size_t)*overdamped, sizeof **decays, by_value);
+    if (modes->count > count)
+        modes->count = count;
+    return STRUM_OK;
+}
+
+/* INT of the wave number of unit frequency, of transverse waves and along an elastic cable of
+ * longitudinal ones; and its largest value in x. */
+static void wave_phase(const strum_cable *cable, const coordinate *x, strum_plane plane,
+                       double *phase, double *steepest)
+{
+    enum { STEPS = 64 };
+    *phase = *steepest = 0;
+    for (int i = 0; i <= STEPS; i++) {
+        const double at = 2.0 * i / STEPS - 1, slope = coordinate_slope(x, at);
+        const double c = cosh(cable->chi_m + coordinate_offset(x, at));
+        const double across = sqrt(cable->mass_n * (1 + cable->kappa_n * c) * c);
+        const double along =
+            plane == STRUM_IN_PLANE ? sqrt(cable->mass_t * cable->kappa_t) * c : 0;
+        *phase += (i == 0 || i == STEPS ? 0.5 : 1) * 2 / STEPS * slope * (across + along);
+        *steepest = fmax(*steepest, fmax(across, along) * slope);
+    }
+}
+
+double spectrum_phase_count(const strum_cable *cable, strum_plane plane, double frequency)
+{
+    const coordinate x = coordinate_linear(cable);
+    double phase, steepest;
+    wave_phase(cable, &x, plane, &phase, &steepest);
+    return frequency * phase / M_PI;
+}
+
+/*
+ * A wave e^{ikx} on [-1, 1] needs about k + 3 k^{1/3} + 7 Legendre functions for 1e-7 of
+ * itself, hence 1e-13 of a frequency; slopes and the singularities at chi = +-i pi/2 of a deep
+ * cable add to it. Too small a first size costs a second round, never digits.
+ */
+int spectrum_first_size(const strum_cable *cable, const coordinate *x, strum_plane plane,
+                        int count)
+{
+    double phase, steepest;
+    wave_phase(cable, x, plane, &phase, &steepest);
+    const double k = (count + 1) * M_PI / phase * steepest;
+    return (int)ceil(k + 3.2 * cbrt(k) + 7 + 1.9 / coordinate_pole(x) +
+                     0.6 * fabs(cable->chi_m));
+}
+
+/* Only what is both large and made much smaller is worth another coordinate. */
+coordinate spectrum_coordinate(const strum_cable *cable, strum_plane plane, int count)
+{
+    const coordinate linear = coordinate_linear(cable), stretched = coordinate_stretched(cable);
+    const int size = spectrum_first_size(cable, &linear, plane, count);
+    const bool worth =
+        size > 120 && spectrum_first_size(cable, &stretched, plane, count) < 0.75 * size;
+    return worth ? stretched : linear;
+}
+
+/* Largest relative difference of each root of `list` to the nearest of `other`. */
+static double disagreement(const root_list *list, const double *decays, int overdamped,
+                           const root_list *other, const double *other_decays,
+                           int other_overdamped)
+{
+    double worst = 0;
+    if (other->count < list->count || other_overdamped != overdamped)
+        return INFINITY;
+    for (int i = 0; i < list->count; i++) {
+        const root *r = &list->items[i];
+        double nearest = INFINITY;
+        for (int j = 0; j < other->count; j++) {
+            const root *o = &other->items[j];
+            if (o->symmetry == r->symmetry)
+                nearest =
+                    fmin(nearest, r->natural > 0 ? fabs(o->natural - r->natural) / r->natural
+                                                 : cabs(o->s - r->s) / cabs(r->s));
+        }
+        worst = fmax(worst, nearest);
+    }
+    /* a proportional pair is as good as its natural frequency, which may sit beside critical
+     * damping */
+    for (int i = 0; i < overdamped && (list->count == 0 || list->items[0].natural == 0); i++)
+        worst = fmax(worst, fabs(decays[i] - other_decays[i]) / decays[i]);
+    return worst;
+}
+
+strum_status spectrum_check_cable(const strum_cable *c, strum_fault *fault)
+{
+    const double values[] = {c->chi_m,  c->mu,     c->kappa_t, c->kappa_n,
+                             c->mass_t, c->mass_n, c->eta_t,   c->eta_n};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        if (!isfinite(values[i]))
+            return fault_set(fault, STRUM_ERR_RANGE, "a property of the cable is not finite");
+    if (!(c->mu > 0 && fabs(c->chi_m) + c->mu <= STRUM_CHI_MAX * (1 + 1e-12)))
+        return fault_set(fault, STRUM_ERR_RANGE, "the slope parameters must lie within +-%g",
+                         STRUM_CHI_MAX);
+    if (!(c->kappa_t >= 0 && c->kappa_n >= 0 && c->eta_t >= 0 && c->eta_n >= 0 &&
+          c->mass_t > 0 && c->mass_n > 0))
+        return fault_set(fault, STRUM_ERR_RANGE,
+                         "masses must be positive, flexibility and damping not negative");
+    return STRUM_OK;
+}
+
+/* Frequencies alone of an inextensible cable of moderate depth come as well from the
+ * displacement form, which is half as large. */
+static bool by_displacement(const strum_cable *c, strum_plane plane, bool shapes)
+{
+    return plane == STRUM_IN_PLANE && !shapes && c->kappa_t == 0 && c->kappa_n == 0 &&
+           inplane_proportional(c) && fabs(c->chi_m) + c->mu <= DISPLACEMENT_CHI_PRECISE;
+}
+
+/* One try at one size; STRUM_ERR_ACCURACY when the two sizes differ. */
+static strum_status attempt(strum_spectrum *sp, int size, int block, int want, int count,
+                            double tolerance)
+{
+    arena *a = &sp->memory;
+    root_list all = {0}, inner = {0}, modes, inner_modes;
+    double *inner_decays;
+    int inner_overdamped;
+    strum_status status =
+        by_displacement(&sp->cable, sp->plane, sp->shapes)
+            ? displacement_roots(&sp->cable, sp->cable.chi_m == 0, size, block, want, a, &all,
+                                 &inner)
+            : spectrum_roots(&sp->cable, &sp->coordinate, sp->plane, STRUM_FORCE_FORM, size,
+                             block, want, sp->shapes, a, &all, &inner, sp->parts);
+    if (status == STRUM_OK)
+        status = spectrum_sort(&sp->cable, sp->plane, &all, count, a, &modes, &sp->decays,
+                               &sp->overdamped);
+    if (status == STRUM_OK)
+        status = spectrum_sort(&sp->cable, sp->plane, &inner, inner.count, a, &inner_modes,
+                               &inner_decays, &inner_overdamped);
+    if (status != STRUM_OK)
+        return status;
+    sp->difference = disagreement(&modes, sp->decays, sp->overdamped, &inner_modes,
+                                  inner_decays, inner_overdamped);
+    sp->size = size;
+    sp->count = modes.count;
+    sp->roots = modes.items;
+    return modes.count == count && sp->difference <= tolerance ? STRUM_OK : STRUM_ERR_ACCURACY;
+}
+
+static strum_status number_modes(strum_spectrum *sp)
+{
+    sp->modes = arena_alloc(&sp->memory, (size_t)sp->count, sizeof *sp->modes);
+    if (sp->modes == NULL)
+        return STRUM_ERR_MEMORY;
+    for (int i = 0; i < sp->count; i++)
+        sp->modes[i] = (strum_mode){.frequency = cimag(sp->roots[i].s),
+                                    .decay = 0 - creal(sp->roots[i].s),
+                                    .symmetry = sp->roots[i].symmetry};
+    return STRUM_OK;
+}
+
+/* Grows the size until two agree. */
+static strum_status solve(strum_spectrum *sp, int count, strum_fault *fault)
+{
+    const double critical = largest_rate(&sp->cable, sp->plane) / 2;
+    const double lost = ceil(1.1 * spectrum_phase_count(&sp->cable, sp->plane, critical));
+    if (lost > 2 * STRUM_MODES_MAX)
+        return fault_set(
+            fault, STRUM_ERR_RANGE,
+            "about %.0f modes would be overdamped, more than %d: less damping can be "
+            "answered",
+            lost, 2 * STRUM_MODES_MAX);
+    const int want = count + (int)lost;
+    const bool damped = sp->cable.eta_t > 0 || sp->cable.eta_n > 0;
+    const double tolerance = damped ? 1e-10 : 1e-12;
+    const int most = sp->plane == STRUM_OUT_OF_PLANE || inplane_proportional(&sp->cable)
+                         ? SPECTRUM_SIZE_MAX
+                         : SPECTRUM_SIZE_MAX_QUADRATIC;
+    sp->coordinate = spectrum_coordinate(&sp->cable, sp->plane, want);
+    const bool slim = by_displacement(&sp->cable, sp->plane, sp->shapes);
+    /* shapes converge at half the rate of frequencies */
+    double block = slim ? displacement_first_size(&sp->cable, want)
+                        : spectrum_first_size(&sp->cable, &sp->coordinate, sp->plane, want) *
+                              (sp->shapes ? 1.35 : 1);
+    double before = INFINITY;
+    while (block < most) {
+        const int inner = (int)block;
+        const int size = inner + (slim         ? displacement_margin(&sp->cable, inner)
+                                  : inner > 40 ? inner / 10
+                                               : 4);
+        const strum_status status = attempt(sp, size, inner, want, count, tolerance);
+        if (status == STRUM_OK)
+            return number_modes(sp);
+        if (status != STRUM_ERR_ACCURACY)
+            return fault_set(fault, status, "%s", strum_status_text(status));
+        arena_free(&sp->memory);
+        /* rounding, not size, stands in the way once a larger size helps no more */
+        if (sp->difference < 1e-8 && sp->difference > before / 3)
+            break;
+        before = sp->difference;
+        block = 1.3 * block + 6;
+    }
+    if (sp->size == 0)
+        return fault_set(
+            fault, STRUM_ERR_ACCURACY,
+            "%d modes of this cable need about %.0f unknowns a component; %d can be "
+            "solved",
+            want, block, most);
+    return fault_set(
+        fault, STRUM_ERR_ACCURACY,
+        "two sizes still differ by %.1e (%.0e is promised) at %d unknowns a component",
+        sp->difference, tolerance, sp->size);
+}
+
+strum_status strum_modes_solve(const strum_cable *cable, strum_plane plane, int count,
+                               bool shapes, strum_spectrum **spectrum, strum_fault *fault)
+{
+    *spectrum = NULL;
+    strum_status status = spectrum_check_cable(cable, fault);
+    if (status != STRUM_OK)
+        return status;
+    if (count < 1 || count > STRUM_MODES_MAX)
+        return fault_set(fault, STRUM_ERR_RANGE, "1 to %d modes can be asked for",
+                         STRUM_MODES_MAX);
+    strum_spectrum *sp = calloc(1, sizeof *sp);
+    if (sp == NULL)
+        return fault_set(fault, STRUM_ERR_MEMORY, "out of memory");
+    sp->cable = *cable;
+    sp->plane = plane;
+    sp->shapes = shapes;
+    status = solve(sp, count, fault);
+    if (status != STRUM_OK)
+        strum_spectrum_free(&sp);
+    *spectrum = sp;
+    return status;
+}
+
+double strum_modes_work(const strum_cable *cable, strum_plane plane, int count, bool shapes)
+{
+    const double lost = spectrum_phase_count(cable, plane, largest_rate(cable, plane) / 2);
+    const int want = count + (int)fmin(lost, 400);
+    const bool level = cable->chi_m == 0; /* a symmetry to split by */
+    /* measured: tests/bench; a fixed part, assembly, and the eigenproblems */
+    if (by_displacement(cable, plane, shapes)) {
+        const double size = displacement_first_size(cable, want);
+        return 25 + size * size * ((level ? 0.04 : 0.09) + (level ? 1.5e-4 : 6e-4) * size);
+    }
+    const coordinate x = spectrum_coordinate(cable, plane, want);
+    double size = spectrum_first_size(cable, &x, plane, want) * (shapes ? 1.35 : 1);
+    if (plane == STRUM_IN_PLANE && !level)
+        size *= 2;
+    const bool quadratic = plane == STRUM_IN_PLANE && !inplane_proportional(cable);
+    return 30 + 0.04 * size * size + (quadratic ? 0.03 : 0.0016) * size * size * size;
+}
+
+void strum_spectrum_free(strum_spectrum **spectrum)
+{
+    if (*spectrum != NULL) {
+        arena_free(&(*spectrum)->memory);
+        free(*spectrum);
+        *spectrum = NULL;
+    }
+}
+
+int strum_spectrum_count(const strum_spectrum *sp)
+{
+    return sp->count;
+}
+
+const strum_mode *strum_spectrum_mode(const strum_spectrum *sp, int index)
+{
+    return &sp->modes[index];
+}
+
+int strum_spectrum_overdamped(const strum_spectrum *sp, const double **decays)
+{
+    *decays = sp->decays;
+    return sp->overdamped;
+}
+
+double strum_spectrum_difference(const strum_spectrum *sp)
+{
+    return sp->difference;
+}
+
+int strum_spectrum_size(const strum_spectrum *sp)
+{
+    return sp->size;
+}

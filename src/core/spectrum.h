@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CORE_SPECTRUM_H
+#define CORE_SPECTRUM_H
+
+#include <strum/catenary.h>
+
+#include "core/roots.h"
+
+struct strum_spectrum {
+    strum_cable cable;
+    strum_plane plane;
+    coordinate coordinate;
+    int size;
+    double difference;
+    bool shapes;
+    int count, overdamped;
+    strum_mode *modes;
+    root *roots; /* of the modes; vectors NULL without shapes */
+    double *decays;
+    inplane_part *parts[3]; /* by symmetry: what the vectors' unknowns are */
+    arena memory;           /* owns all the above */
+};
+
+/* Most unknowns a component; beyond it an answer is refused rather than waited for. A quadratic
+ * eigenproblem (damping not proportional to mass) costs about a hundred times a symmetric one.
+ */
+#define SPECTRUM_SIZE_MAX           1400
+#define SPECTRUM_SIZE_MAX_QUADRATIC 500
+
+/* STRUM_ERR_RANGE with the reason where a property of the cable is out of its range. */
+strum_status spectrum_check_cable(const strum_cable *cable, strum_fault *fault);
+
+/* All roots of a cable at one size, and of its leading block `block` where `inner` is not NULL.
+ * `want`: roots of each symmetry class. Memory is the arena's. */
+strum_status spectrum_roots(const strum_cable *cable, const coordinate *x, strum_plane plane,
+                            inplane_form form, int size, int block, int want, bool vectors,
+                            arena *a, root_list *list, root_list *inner,
+                            inplane_part *parts[3]);
+
+/* Splits `list` into roots that oscillate (ascending frequency, at most `count`) and decay
+ * rates (ascending); arrays are the arena's. Roots beyond what damping can reach are rounding
+ * and left out. */
+strum_status spectrum_sort(const strum_cable *cable, strum_plane plane, const root_list *list,
+                           int count, arena *a, root_list *modes, double **decays,
+                           int *overdamped);
+
+/* Number of modes to expect below `frequency` from the phase of a travelling wave; an estimate
+ * for sizes. */
+double spectrum_phase_count(const strum_cable *cable, strum_plane plane, double frequency);
+/* Size at which the first `count` modes should be right to 1e-12. */
+int spectrum_first_size(const strum_cable *cable, const coordinate *x, strum_plane plane,
+                        int count);
+/* The coordinate in which they need fewer functions. */
+coordinate spectrum_coordinate(const strum_cable *cable, strum_plane plane, int count);
+
+/* Force F, F' = dF/dsigma and displacement X of a mode at x, in the middle tangent frame. */
+typedef struct inplane_state {
+    double cosh_chi, c, s;
+    double _Complex force[2], displacement[2];
+} inplane_state;
+void spectrum_inplane_at(const strum_spectrum *spectrum, int index, double x, double *table,
+                         inplane_state *state);
+
+#endif
