@@ -5,5 +5,8 @@
 
 #include <strum/status.h>
 #include <strum/catenary.h>
+#include <strum/forced.h>
+#include <strum/series.h>
+#include <strum/shallow.h>
 
 #endif

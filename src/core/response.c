@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A forced response: its values along the cable and its largest tension. */
+#include <cblas.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/forced.h"
+
+strum_response *strum_response_make(const strum_forced *f)
+{
+    strum_response *r = calloc(1, sizeof *r);
+    if (r == NULL)
+        return NULL;
+    const size_t size = (size_t)f->size, samples = (size_t)f->samples;
+    const size_t unknowns = f->part_count > 0 ? (size_t)f->parts[0].part.count + 1 : 0;
+    const bool damped = f->part_count > 0 && !f->proportional;
+    r->forced = f;
+    r->v[0][0] = arena_doubles(&r->memory, 4 * size);
+    r->w = arena_alloc(&r->memory, size, sizeof *r->w);
+    r->work = arena_doubles(&r->memory, 6 * size + 2);
+    r->table = arena_doubles(&r->memory, 2 * size + 4 * samples);
+    r->matrix =
+        damped ? arena_alloc(&r->memory, (unknowns + 1) * unknowns, sizeof *r->matrix) : NULL;
+    if (r->v[0][0] == NULL || r->w == NULL || r->work == NULL || r->table == NULL ||
+        (damped && r->matrix == NULL))
+        strum_response_free(&r);
+    else
+        for (size_t i = 1; i < 4; i++)
+            r->v[i / 2][i % 2] = r->v[0][0] + i * size;
+    return r;
+}
+
+void strum_response_free(strum_response **response)
+{
+    if (*response != NULL) {
+        arena_free(&(*response)->memory);
+        free(*response);
+        *response = NULL;
+    }
+}
+
+void response_of_mode(strum_response *r, const forced_part *p, int mode)
+{
+    const int n = p->part.count;
+    const double *phi = p->phi + (size_t)mode * (size_t)n;
+    memset(r->v[0][0], 0, 4 * (size_t)r->forced->size * sizeof *r->v[0][0]);
+    r->constant[0] = r->constant[1] = r->lift = 0;
+    r->scale = 1;
+    r->real = true;
+    for (int j = 0; j < n; j++) {
+        r->v[p->part.component[j]][0][p->part.index[j]] = phi[j];
+        for (int k = 0; k < 2; k++)
+            r->constant[k] += p->constants.from_unknowns[2 * j + k] * phi[j];
+    }
+}
+
+/* F and dF/dx (over scale) at x; also what depends on x alone. */
+static void force_at(const strum_response *r, double x, double *cosh_chi, double t[2],
+                     double _Complex force[2], double _Complex slope[2])
+{
+    const strum_forced *f = r->forced;
+    double *p = r->table, *q = p + f->size;
+    basis_at_with(f->factors, x, f->size, p, q);
+    inplane_frame_at(&f->coordinate, x, cosh_chi, &t[0], &t[1]);
+    for (int i = 0; i < 2; i++) {
+        double value[2] = {0, 0}, derivative[2] = {0, 0};
+        for (int half = 0; half < (r->real ? 1 : 2); half++) {
+            value[half] = cblas_ddot(f->size, r->v[i][half], 1, q, 1);
+            derivative[half] = cblas_ddot(f->size, r->v[i][half], 1, p, 1);
+        }
+        force[i] = r->constant[i] + r->scale * CMPLX(value[0], value[1]);
+        slope[i] = CMPLX(derivative[0], derivative[1]);
+    }
+}
+
+void response_tension(const strum_response *r, double x, double _Complex *tension,
+                      double _Complex *slope)
+{
+    double cosh_chi, t[2];
+    double _Complex force[2], derivative[2];
+    force_at(r, x, &cosh_chi, t, force, derivative);
+    *tension = t[0] * force[0] + t[1] * force[1];
+    /* dt/dchi = n/cosh chi */
+    *slope = r->scale * (t[0] * derivative[0] + t[1] * derivative[1]) +
+             r->forced->cable.mu / cosh_chi * (t[0] * force[1] - t[1] * force[0]);
+}
+
+void strum_response_at(const strum_response *r, double chi, strum_forced_point *point)
+{
+    const strum_cable *cable = &r->forced->cable;
+    const double x = fmin(fmax((chi - cable->chi_m) / cable->mu, -1), 1);
+    double cosh_chi, t[2];
+    double _Complex force[2], slope[2], w = r->lift * (1 + x) / 2;
+    force_at(r, x, &cosh_chi, t, force, slope);
+    const double scale = 1 / (cable->mu * cosh_chi);
+    point->chi = chi;
+    point->tension = t[0] * force[0] + t[1] * force[1];
+    point->tangential = r->inverse_t * scale * (t[0] * slope[0] + t[1] * slope[1]);
+    point->normal = r->inverse_n * scale * (t[0] * slope[1] - t[1] * slope[0]);
+    for (int k = 0; k < r->forced->size; k++)
+        w += r->w[k] * r->table[r->forced->size + k];
+    point->out_of_plane = w;
+    /* the ends, which the force form only meets to rounding */
+    if (x == -1)
+        point->tangential = point->normal = point->out_of_plane = 0;
+    if (x == 1) {
+        point->tangential = r->motion.tangential;
+        point->normal = r->motion.normal;
+        point->out_of_plane = r->motion.out_of_plane;
+    }
+}
+
+void response_sample(const strum_response *r, double *re, double *im)
+{
+    const strum_forced *f = r->forced;
+    const int samples = f->samples, size = f->size;
+    double *part[2] = {r->table + 2 * size + 2 * samples, r->table + 2 * size + 3 * samples};
+    memset(re, 0, (size_t)samples * sizeof *re);
+    memset(im, 0, (size_t)samples * sizeof *im);
+    for (int i = 0; i < 2; i++) {
+        const double *t = f->sample_t + (size_t)i * (size_t)samples;
+        for (int half = 0; half < (r->real ? 1 : 2); half++)
+            cblas_dgemv(CblasColMajor, CblasNoTrans, samples, size, 1, f->sample_q, samples,
+                        r->v[i][half], 1, 0, part[half], 1);
+        if (r->real) {
+            const double c = creal(r->constant[i]), scale = creal(r->scale);
+            for (int j = 0; j < samples; j++)
+                re[j] += t[j] * (c + scale * part[0][j]);
+            continue;
+        }
+        for (int j = 0; j < samples; j++) {
+            const double _Complex force =
+                r->constant[i] + r->scale * CMPLX(part[0][j], part[1][j]);
+            re[j] += t[j] * creal(force);
+            im[j] += t[j] * cimag(force);
+        }
+    }
+}
+
+/* Re(conj(T) dT/dx): half the slope of |T|^2. */
+static double climb(const strum_response *r, double x, double _Complex *tension)
+{
+    double _Complex slope;
+    response_tension(r, x, tension, &slope);
+    return creal(conj(*tension) * slope);
+}
+
+/* The maximum between two samples about one that is larger than both: false position on the
+ * slope. */
+static double refine(const strum_response *r, double low, double high, double _Complex *tension)
+{
+    double _Complex ignored;
+    double g_low = climb(r, low, &ignored), g_high = climb(r, high, &ignored), x = low;
+    if (!(g_low > 0)) /* falls from its end, which is a support */
+        x = low;
+    else if (!(g_high < 0))
+        x = high;
+    else
+        for (int i = 0, kept = 0; i < 40 && high - low > 1e-9; i++) {
+            x = (low * g_high - high * g_low) / (g_high - g_low);
+            const double g = climb(r, x, &ignored);
+            if (fabs(g) < 1e-13 * fmax(fabs(g_low), fabs(g_high)))
+                break;
+            if (g > 0) {
+                low = x;
+                g_low = g;
+                g_high *= kept == 1 ? 0.5 : 1; /* Illinois: an end that stays counts half */
+                kept = 1;
+            } else {
+                high = x;
+                g_high = g;
+                g_low *= kept == -1 ? 0.5 : 1;
+                kept = -1;
+            }
+        }
+    double _Complex slope;
+    response_tension(r, x, tension, &slope);
+    return x;
+}
+
+/* What a maximum beside sample i may reach: the parabola through three samples, which are dense
+ * enough for it to be within a few per cent. */
+static double promise(const double *value, int i, int samples)
+{
+    if (i == 0 || i == samples - 1)
+        return value[i] * 1.02;
+    const double left = fabs(value[i - 1]),
+                 right = fabs(value[i + 1]); /* negative where seen */
+    const double bend = 2 * value[i] - left - right, tilt = right - left;
+    return (value[i] + (bend > 0 ? tilt * tilt / (8 * bend) : 0)) * 1.05;
+}
+
+void strum_response_peak(const strum_response *r, strum_peak *peak)
+{
+    const strum_forced *f = r->forced;
+    const int samples = f->samples;
+    double *value = r->table + 2 * f->size, *im = value + samples;
+    response_sample(r, value, im);
+    for (int i = 0; i < samples; i++)
+        value[i] = r->real ? fabs(value[i]) : hypot(value[i], im[i]);
+    *peak = (strum_peak){.chi = f->cable.chi_m - f->cable.mu};
+    /* the most promising first, so that most others need no look */
+    for (;;) {
+        int best = -1;
+        for (int i = 0; i < samples; i++)
+            if (value[i] >= 0 && (i == 0 || fabs(value[i - 1]) <= value[i]) &&
+                (i == samples - 1 || fabs(value[i + 1]) <= value[i]) &&
+                (best < 0 || value[i] > value[best]))
+                best = i;
+        if (best < 0 || promise(value, best, samples) <= peak->tension)
+            return;
+        const double step = 2.0 / (samples - 1), at = best * step - 1;
+        double _Complex tension;
+        const double x = refine(r, fmax(at - step, -1), fmin(at + step, 1), &tension);
+        if (cabs(tension) > peak->tension || peak->tension == 0)
+            *peak = (strum_peak){.tension = cabs(tension),
+                                 .chi = f->cable.chi_m + f->cable.mu * x,
+                                 .phase = carg(tension)};
+        value[best] = -value[best] - 1e-300; /* seen */
+    }
+}
+
+/* ---- sums of harmonics
+ * ------------------------------------------------------------------------------- */
+
+static double sum_at(const double _Complex *tensions, const int *multiples, int count,
+                     double phase)
+{
+    double sum = 0;
+    for (int k = 0; k < count; k++)
+        sum += creal(tensions[k] * cexp(CMPLX(0, multiples[k] * phase)));
+    return sum;
+}
+
+/* Largest |T(phase)| over a period of given harmonics: scan, then golden section. */
+static double largest_in_period(const double _Complex *tensions, const int *multiples,
+                                int count, int steps, double *phase)
+{
+    const double step = 2 * M_PI / steps, golden = 0.6180339887498949;
+    double best = -1;
+    for (int i = 0; i < steps; i++) {
+        const double value = fabs(sum_at(tensions, multiples, count, i * step));
+        if (value > best * (1 + 1e-12)) {
+            best = value;
+            *phase = i * step;
+        }
+    }
+    double low = *phase - step, high = *phase + step;
+    for (int i = 0; i < 40; i++) {
+        const double left = high - golden * (high - low), right = low + golden * (high - low);
+        if (fabs(sum_at(tensions, multiples, count, left)) >
+            fabs(sum_at(tensions, multiples, count, right)))
+            high = right;
+        else
+            low = left;
+    }
+    *phase = (low + high) / 2;
+    return fabs(sum_at(tensions, multiples, count, *phase));
+}
+
+typedef struct periodic {
+    strum_response *const *responses;
+    const int *multiples;
+    int count, steps;
+    double _Complex *tensions;
+} periodic;
+
+static double periodic_at(const periodic *p, double x, double *phase)
+{
+    double _Complex slope;
+    for (int k = 0; k < p->count; k++)
+        response_tension(p->responses[k], x, &p->tensions[k], &slope);
+    return largest_in_period(p->tensions, p->multiples, p->count, p->steps, phase);
+}
+
+strum_status strum_periodic_peak_find(strum_response *const *responses, const int *multiples,
+                                      int count, strum_periodic_peak *peak)
+{
+    int highest = 1;
+    for (int k = 0; k < count; k++)
+        highest = multiples[k] > highest ? multiples[k] : highest;
+    const strum_forced *f = responses[0]->forced;
+    periodic p = {responses, multiples, count, 16 * highest, NULL};
+    arena a = {0};
+    p.tensions = arena_alloc(&a, (size_t)count, sizeof *p.tensions);
+    if (p.tensions == NULL)
+        return STRUM_ERR_MEMORY;
+    const double step = 2.0 / (f->samples - 1), golden = 0.6180339887498949;
+    double best = -1, x = -1, phase = 0;
+    for (int i = 0; i < f->samples; i++) {
+        const double at = fmin(i * step - 1, 1), value = periodic_at(&p, at, &phase);
+        if (value > best * (1 + 1e-12)) {
+            best = value;
+            x = at;
+        }
+    }
+    double low = fmax(x - step, -1), high = fmin(x + step, 1);
+    for (int i = 0; i < 40; i++) {
+        const double left = high - golden * (high - low), right = low + golden * (high - low);
+        if (periodic_at(&p, left, &phase) > periodic_at(&p, right, &phase))
+            high = right;
+        else
+            low = left;
+    }
+    x = (low + high) / 2;
+    if (x - step < -1 + 1e-9 && periodic_at(&p, -1, &phase) >= periodic_at(&p, x, &phase))
+        x = -1;
+    if (x + step > 1 - 1e-9 && periodic_at(&p, 1, &phase) >= periodic_at(&p, x, &phase))
+        x = 1;
+    (void)periodic_at(&p, x, &phase);
+    peak->tension = sum_at(p.tensions, multiples, count, phase);
+    peak->chi = f->cable.chi_m + f->cable.mu * x;
+    peak->phase = phase - 2 * M_PI * floor(phase / (2 * M_PI));
+    arena_free(&a);
+    return STRUM_OK;
+}
