@@ -6,6 +6,7 @@
 #include <strum/status.h>
 #include <strum/catenary.h>
 #include <strum/forced.h>
+#include <strum/inclined.h>
 #include <strum/series.h>
 #include <strum/shallow.h>
 
