@@ -9,5 +9,6 @@
 #include <strum/inclined.h>
 #include <strum/series.h>
 #include <strum/shallow.h>
+#include <strum/taut.h>
 
 #endif
