@@ -10,5 +10,6 @@
 #include <strum/series.h>
 #include <strum/shallow.h>
 #include <strum/taut.h>
+#include <strum/absorber.h>
 
 #endif
