@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "json/write.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "json/utf8.h"
+
+/* A value begins: a comma before it where one stands already, and after it comes one. */
+static void begin_value(json_writer *json)
+{
+    if (json->comma)
+        text_add(json->out, ",", 1);
+    json->comma = true;
+}
+
+void json_open_object(json_writer *json)
+{
+    begin_value(json);
+    text_add(json->out, "{", 1);
+    json->comma = false;
+}
+
+void json_close_object(json_writer *json)
+{
+    text_add(json->out, "}", 1);
+    json->comma = true;
+}
+
+void json_open_array(json_writer *json)
+{
+    begin_value(json);
+    text_add(json->out, "[", 1);
+    json->comma = false;
+}
+
+void json_close_array(json_writer *json)
+{
+    text_add(json->out, "]", 1);
+    json->comma = true;
+}
+
+void json_key(json_writer *json, const char *key)
+{
+    json_string(json, key);
+    text_add(json->out, ":", 1);
+    json->comma = false;
+}
+
+void json_number(json_writer *json, double value)
+{
+    if (!isfinite(value)) {
+        json->out->failed = true;
+        return;
+    }
+    char buffer[1 + JSON_NUMBER_MAX] = ",";
+    const size_t size = json_print_double(value, buffer + 1);
+    if (json->comma)
+        text_add(json->out, buffer, size + 1);
+    else
+        text_add(json->out, buffer + 1, size);
+    json->comma = true;
+}
+
+void json_integer(json_writer *json, int64_t value)
+{
+    begin_value(json);
+    text_format(json->out, "%lld", (long long)value);
+}
+
+void json_flag(json_writer *json, bool value)
+{
+    begin_value(json);
+    text_add_string(json->out, value ? "true" : "false");
+}
+
+void json_string(json_writer *json, const char *string)
+{
+    json_string_n(json, string, strlen(string));
+}
+
+/* What stands for a byte that cannot stand for itself in a string. */
+static void add_escape(text *out, unsigned char byte)
+{
+    static const char named[] = "\"\"\\\\\bb\ff\nn\rr\tt"; /* byte, letter, ... */
+    for (const char *n = named; *n != '\0'; n += 2)
+        if ((unsigned char)*n == byte) {
+            text_add(out, (const char[]){'\\', n[1]}, 2);
+            return;
+        }
+    text_format(out, "\\u%04x", byte);
+}
+
+void json_string_n(json_writer *json, const char *bytes, size_t size)
+{
+    text *out = json->out;
+    begin_value(json);
+    text_add(out, "\"", 1);
+    const char *const end = bytes + size;
+    const char *plain = bytes; /* start of the run that needs no change */
+    for (const char *at = bytes; at < end;) {
+        const unsigned char byte = (unsigned char)*at;
+        const size_t length = utf8_size(at, end);
+        if (length > 0 && byte >= 0x20 && byte != '"' && byte != '\\') {
+            at += length;
+            continue;
+        }
+        text_add(out, plain, (size_t)(at - plain));
+        /* An answer is valid UTF-8 whatever a client sent: U+FFFD for what is not. */
+        if (length == 0)
+            text_add_string(out, "\xEF\xBF\xBD");
+        else
+            add_escape(out, byte);
+        plain = ++at;
+    }
+    text_add(out, plain, (size_t)(end - plain));
+    text_add(out, "\"", 1);
+}
+
+void json_complex(json_writer *json, double _Complex value)
+{
+    json_open_object(json);
+    json_put_number(json, "re", creal(value));
+    json_put_number(json, "im", cimag(value));
+    json_close_object(json);
+}
+
+void json_raw(json_writer *json, const char *bytes, size_t size)
+{
+    begin_value(json);
+    text_add(json->out, bytes, size);
+}
+
+void json_put_number(json_writer *json, const char *key, double value)
+{
+    json_key(json, key);
+    json_number(json, value);
+}
+
+void json_put_integer(json_writer *json, const char *key, int64_t value)
+{
+    json_key(json, key);
+    json_integer(json, value);
+}
+
+void json_put_flag(json_writer *json, const char *key, bool value)
+{
+    json_key(json, key);
+    json_flag(json, value);
+}
+
+void json_put_string(json_writer *json, const char *key, const char *string)
+{
+    json_key(json, key);
+    json_string(json, string);
+}
+
+void json_put_complex(json_writer *json, const char *key, double _Complex value)
+{
+    json_key(json, key);
+    json_complex(json, value);
+}
