@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What an endpoint is: a path, the table of its fields, and the function that answers. Adding
+ * one means adding a file with a `const endpoint`, a row in endpoints[] (table.c) and its
+ * answer's schema in api/openapi.yaml.
+ */
+#ifndef ENDPOINTS_ENDPOINT_H
+#define ENDPOINTS_ENDPOINT_H
+
+#include <stdatomic.h>
+
+#include "endpoints/schema.h"
+
+/* How far a long computation has come. */
+typedef struct progress {
+    int64_t evaluations;
+    double best;      /* of what is sought; NAN: none so far */
+    const char *what; /* is counted and sought, in a few words; may be NULL */
+} progress;
+
+/* Who looks on while an answer is made, and what is learnt beside it. */
+typedef struct watch {
+    const _Atomic bool *cancel; /* may be NULL; true: nobody waits any more */
+    /* May be NULL. From the thread that solves; however often it is called, it costs little. */
+    void (*progress)(struct watch *w, const progress *so_far);
+    double solve_us; /* set: the time spent in the endpoint */
+    bool transient;  /* set: see below */
+} watch;
+
+/* What an answer is written into, and what may end it early. */
+typedef struct answer {
+    json_writer *result;        /* write exactly one value: the "result" */
+    text *warnings;             /* owned by the caller; use answer_warn */
+    const char *theory;         /* set: what the answer rests on, with source ("meta.theory") */
+    const _Atomic bool *cancel; /* may be NULL; true: nobody waits any more */
+    watch *watch;               /* may be NULL; use answer_progress */
+    /* Set: a limit of time cut it short, so that it might come out otherwise another time. It
+     * is sent, with a warning that says so, and never stored. */
+    bool transient;
+    problem *problem; /* say here why there is no answer (422 impossible, 503 cancelled, 500) */
+} answer;
+
+/* Tells whoever looks on; `best` NAN: none so far, `what` may be NULL. */
+void answer_progress(const answer *a, int64_t evaluations, double best, const char *what);
+/* Nobody waits any more: poll this where the work is long, and give up with 503. */
+bool answer_cancelled(const answer *a);
+void answer_warn(answer *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+typedef struct endpoint {
+    const char *path;  /* "/v1/catenary/frequencies" */
+    const char *title; /* one line */
+    const schema *request;
+    bool query;     /* may be asked by GET: no nested lists */
+    bool variables; /* FIELD_VARIABLE rows may name variables */
+    /* Computes dependent defaults (field_give) and checks across fields; adds every fault to
+     * `p`. */
+    void (*prepare)(void *request, schema_arena *arena, problem *p);
+    /* Estimated work in microseconds: decides between answering at once and handing to the
+     * crew. */
+    double (*cost_us)(const void *request);
+    /* Writes the result; false with a->problem set when there is none. Pure: depends on
+     * `request` only. */
+    bool (*answer)(const void *request, answer *a);
+} endpoint;
+
+/* All endpoints, ended by NULL. */
+extern const endpoint *const endpoints[];
+/* The endpoint of a path, or NULL. */
+const endpoint *endpoint_find(const char *path);
+
+/* ---- one asking: what http and cache see of all this
+ * ------------------------------------------------ */
+
+/* A request that was read, checked and completed. Owned by the caller; ended by asking_free. */
+typedef struct asking asking;
+
+/* From a JSON body / from query pairs. NULL with `p` filled when refused. */
+asking *asking_read(const endpoint *e, const char *body, size_t size, const json_limits *limits,
+                    problem *p);
+/* From a part of a document that json_read has read; pointers are those into the part. */
+asking *asking_read_item(const endpoint *e, const cJSON *item, problem *p);
+asking *asking_read_query(const endpoint *e, const query_pair *pairs, size_t count, problem *p);
+void asking_free(asking *a);
+
+/* Canonical bytes: endpoint, solver version and every field; their hash is the answer's key. */
+void asking_canonical(const asking *a, text *out);
+double asking_cost_us(const asking *a);
+/* Writes {"request", "result", "warnings", "meta": {"key", "solver", "theory"}}. False with `p`
+ * filled when there is no answer. `w` may be NULL. */
+bool asking_answer(const asking *a, const char *key, watch *w, text *out, problem *p);
+
+#endif
