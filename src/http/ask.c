@@ -1,0 +1,319 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "http/ask.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "http/clock.h"
+#include "http/events.h"
+#include "http/reply.h"
+#include "http/server.h"
+
+/* A flight that a worker shall solve. */
+typedef struct task {
+    job job;
+    server *server;
+    asking *asking; /* owned */
+    cache_key key;
+    flight *flight;
+    double given_us;
+} task;
+
+entry *ask_refusal(const cache_key *key, const problem *why)
+{
+    text body = {0};
+    problem_write(why, NULL, &body);
+    return entry_new(key, why->status, &body);
+}
+
+static entry *unavailable(const cache_key *key, const char *detail)
+{
+    problem why = {0};
+    problem_set(&why, 503, "%s", detail);
+    entry *e = ask_refusal(key, &why);
+    problem_clear(&why);
+    return e;
+}
+
+/* Who looks on is told so often at most. */
+#define TELL_MS 250
+
+typedef struct telling {
+    watch watch;
+    cache *cache;
+    flight *flight;
+    int64_t told_ms;
+} telling;
+
+static void tell(watch *w, const progress *so_far)
+{
+    telling *t = (telling *)(void *)w;
+    const int64_t now = clock_ms();
+    if (t->told_ms && now - t->told_ms < TELL_MS)
+        return;
+    t->told_ms = now;
+    cache_tell(t->cache, t->flight, so_far);
+}
+
+void ask_fly(server *s, const asking *a, const cache_key *key, flight *f, double given_us)
+{
+    const double queue_us = given_us > 0 ? clock_us() - given_us : 0;
+    telling t = {
+        {.cancel = flight_cancel(f), .progress = tell}, .cache = s->cache, .flight = f};
+    entry *e = entry_solve(a, key, &t.watch);
+    if (e) {
+        e->queue_us = queue_us;
+        if (e->status == 200 && !e->transient)
+            reply_make_face(s, e);
+    }
+    cache_land(s->cache, f, e);
+    entry_unref(e);
+}
+
+static void task_work(job *j)
+{
+    task *t = (task *)(void *)j;
+    ask_fly(t->server, t->asking, &t->key, t->flight, t->given_us);
+    asking_free(t->asking);
+    free(t);
+}
+
+/* ---- waiting: the event thread suspends, another thread resumes ---- */
+
+enum { HANDOVER_NONE, HANDOVER_SUSPENDED, HANDOVER_DONE };
+
+static peer *peer_of(waiter *w)
+{
+    return (peer *)(void *)((char *)w - offsetof(peer, request.waiter));
+}
+
+static void wake(waiter *w, entry *outcome)
+{
+    peer *p = peer_of(w);
+    p->request.outcome = outcome;
+    /* Whoever comes second to the handover resumes. */
+    if (atomic_exchange(&p->request.handover, HANDOVER_DONE) == HANDOVER_SUSPENDED)
+        MHD_resume_connection(p->connection);
+}
+
+static enum MHD_Result suspend(peer *p)
+{
+    MHD_suspend_connection(p->connection);
+    peer_enter(p, PEER_WAITING, p->server->settings->solve_timeout_s);
+    /* Either this sees that the daemon stops, or the daemon sees who waits. */
+    if (p->server->stopping)
+        ask_give_up(p, "the daemon is shutting down");
+    if (atomic_exchange(&p->request.handover, HANDOVER_SUSPENDED) == HANDOVER_DONE)
+        MHD_resume_connection(p->connection);
+    return MHD_YES;
+}
+
+void ask_give_up(peer *p, const char *why)
+{
+    if (p->request.stream) {
+        stream_give_up(p->request.stream, why);
+        return;
+    }
+    waiter *w = &p->request.waiter;
+    if (!cache_abandon(p->server->cache, w))
+        return;
+    static const cache_key none = {{0}};
+    w->wake(w, unavailable(&none, why));
+}
+
+static enum MHD_Result reply_outcome(peer *p)
+{
+    request *r = &p->request;
+    entry *e = r->outcome;
+    if (r->stream)
+        return events_reply(p, NULL);
+    r->outcome = NULL;
+    return reply_entry(p, e, r->collapsed ? REPLY_COLLAPSED : REPLY_SOLVED);
+}
+
+static enum MHD_Result wait_outcome(peer *p)
+{
+    return p->request.stream ? events_reply(p, NULL) : suspend(p);
+}
+
+/* ---- the steps ---- */
+
+/* The key of a body's bytes. A body and a query string never share one: the number of parts
+ * differs. */
+static bool body_key(const request *r, cache_key *key)
+{
+    const char *path = r->route.endpoint->path;
+    const key_part parts[] = {{path, strlen(path)}, {r->body.data, r->body.size}};
+    return key_of_parts(parts, 2, key);
+}
+
+#define QUERY_PAIRS_MAX 64
+
+typedef struct query_string {
+    query_pair pairs[QUERY_PAIRS_MAX];
+    key_part parts[2 * QUERY_PAIRS_MAX + 1];
+    size_t count;
+    bool too_many;
+} query_string;
+
+static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *name,
+                                const char *value)
+{
+    (void)kind;
+    query_string *q = cls;
+    q->too_many = q->count == QUERY_PAIRS_MAX;
+    if (q->too_many)
+        return MHD_NO;
+    value = value ? value : "";
+    q->parts[2 * q->count + 1] = (key_part){name, strlen(name)};
+    q->parts[2 * q->count + 2] = (key_part){value, strlen(value)};
+    q->pairs[q->count++] = (query_pair){.name = name, .value = value};
+    return MHD_YES;
+}
+
+/* Hands the flight to the crew; takes over `a`. */
+static enum MHD_Result give_to_crew(peer *p, asking *a, const cache_key *key, flight *f)
+{
+    server *s = p->server;
+    task *t = calloc(1, sizeof *t);
+    const bool room = t && crew_reserve(s->crew);
+    if (!room) {
+        entry *full = t ? unavailable(key, "the queue is full; try again later") : NULL;
+        cache_land(s->cache, f, full); /* wakes this request too */
+        entry_unref(full);
+        asking_free(a);
+        free(t);
+        return reply_outcome(p);
+    }
+    *t = (task){.job.work = task_work,
+                .server = s,
+                .asking = a,
+                .key = *key,
+                .flight = f,
+                .given_us = clock_us()};
+    crew_give(s->crew, &t->job);
+    return wait_outcome(p);
+}
+
+/* POST with Accept: text/event-stream. */
+static bool wants_events(const request *r)
+{
+    return r->method == METHOD_POST && r->accept && strstr(r->accept, "text/event-stream");
+}
+
+/* A stored answer. */
+static enum MHD_Result reply_hit(peer *p, entry *hit)
+{
+    if (!wants_events(&p->request))
+        return reply_entry(p, hit, REPLY_HIT);
+    if (p->request.stream || events_open(p)) {
+        events_free_waiter(p);
+        return events_reply(p, hit);
+    }
+    entry_unref(hit);
+    return reply_entry(p, NULL, REPLY_HIT);
+}
+
+static enum MHD_Result solve(peer *p, asking *a)
+{
+    server *s = p->server;
+    request *r = &p->request;
+    cache_key key;
+    entry *hit = NULL;
+    flight *lead = NULL;
+    cache_turn turn = TURN_NONE;
+    r->waiter.wake = wake;
+    atomic_store(&r->handover, HANDOVER_NONE);
+    waiter *w = wants_events(r) ? events_open(p) : &r->waiter;
+    if (w && key_of_asking(a, &r->canonical, &key))
+        turn = cache_enter(s->cache, &key, w, &hit, &lead);
+    if (turn == TURN_LEAD && asking_cost_us(a) >= s->settings->inline_us)
+        return give_to_crew(p, a, &key, lead);
+    if (turn == TURN_LEAD)
+        ask_fly(s, a, &key, lead, 0);
+    asking_free(a);
+    switch (turn) {
+    case TURN_HIT:
+        return reply_hit(p, hit);
+    case TURN_JOIN:
+        r->collapsed = true;
+        return wait_outcome(p);
+    case TURN_LEAD:
+        return reply_outcome(p);
+    default:
+        if (r->stream)
+            events_free_waiter(p);
+        return reply_entry(p, NULL, REPLY_HIT);
+    }
+}
+
+/* Takes over `a`; NULL: it was refused, `why` says why. */
+static enum MHD_Result solve_read(peer *p, asking *a, double began_us, problem *why)
+{
+    p->request.read_us = clock_us() - began_us;
+    if (!a)
+        return reply_problem(p, why);
+    problem_clear(why);
+    return solve(p, a);
+}
+
+static enum MHD_Result ask_by_query(peer *p)
+{
+    request *r = &p->request;
+    const endpoint *e = r->route.endpoint;
+    query_string q;
+    q.count = 0;
+    q.too_many = false;
+    q.parts[0] = (key_part){e->path, strlen(e->path)};
+    MHD_get_connection_values(p->connection, MHD_GET_ARGUMENT_KIND, add_pair, &q);
+    if (q.too_many)
+        return reply_refusal(p, 400, "more than %d parameters", QUERY_PAIRS_MAX);
+    if (!key_of_parts(q.parts, 2 * q.count + 1, &r->waiter.raw))
+        return reply_entry(p, NULL, REPLY_HIT);
+    entry *hit = cache_find(p->server->cache, CACHE_RAW, &r->waiter.raw);
+    if (hit)
+        return reply_entry(p, hit, REPLY_HIT);
+    const double began = clock_us();
+    problem why = {0};
+    return solve_read(p, asking_read_query(e, q.pairs, q.count, &why), began, &why);
+}
+
+static enum MHD_Result ask_by_body(peer *p)
+{
+    request *r = &p->request;
+    const settings *set = p->server->settings;
+    if (!body_key(r, &r->waiter.raw))
+        return reply_entry(p, NULL, REPLY_HIT);
+    entry *hit = cache_find(p->server->cache, CACHE_RAW, &r->waiter.raw);
+    if (hit)
+        return reply_hit(p, hit);
+    const double began = clock_us();
+    const json_limits limits = {.depth = (int)set->json_depth, .values = (int)set->json_values};
+    problem why = {0};
+    asking *a = asking_read(r->route.endpoint, r->body.data ? r->body.data : "", r->body.size,
+                            &limits, &why);
+    return solve_read(p, a, began, &why);
+}
+
+enum MHD_Result ask_endpoint(peer *p)
+{
+    if (atomic_load_explicit(&p->phase, memory_order_relaxed) == PEER_WAITING) {
+        peer_enter(p, PEER_READING, p->server->settings->request_timeout_s);
+        return reply_outcome(p);
+    }
+    const bool has_body = p->request.method & (METHOD_POST | METHOD_QUERY);
+    return has_body ? ask_by_body(p) : ask_by_query(p);
+}
+
+enum MHD_Result ask_result(peer *p)
+{
+    cache_key key;
+    if (!key_parse(p->request.route.rest, &key))
+        return reply_refusal(p, 400, "a key is 64 hexadecimal digits in lower case");
+    entry *e = cache_find(p->server->cache, CACHE_CANONICAL, &key);
+    if (!e)
+        return reply_refusal(p, 404,
+                             "no answer is stored under this key (any more); ask its question "
+                             "again");
+    return reply_entry(p, e, REPLY_HIT);
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Counters, and their text for Prometheus (format 0.0.4). */
+#ifndef HTTP_METRICS_H
+#define HTTP_METRICS_H
+
+#include "json/text.h"
+
+typedef struct metrics metrics;
+struct server;
+
+metrics *metrics_new(void); /* NULL when memory ran out */
+void metrics_free(metrics *m);
+void metrics_request(metrics *m, size_t index, int status, size_t bytes);
+void metrics_write(struct server *s, text *out);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The running daemon: what all of src/http shares. */
+#ifndef HTTP_SERVER_H
+#define HTTP_SERVER_H
+
+#include <microhttpd.h>
+
+#include "cache/cache.h"
+#include "http/access.h"
+#include "http/crew.h"
+#include "http/listen.h"
+#include "http/metrics.h"
+#include "http/peers.h"
+#include "http/settings.h"
+
+typedef struct server {
+    const settings *settings;
+    listen_at at;
+    struct MHD_Daemon *daemon;
+    struct MHD_Response *no_memory; /* sent when nothing else can be made */
+    cache *cache;
+    access_list *access; /* NULL: everybody may ask */
+    crew *crew;
+    peers *peers;
+    metrics *metrics;
+    size_t queue_depth;
+    atomic_int batches; /* under way */
+    size_t accepted;    /* connections handed to libmicrohttpd */
+    uint32_t id_prefix; /* of request ids, so that two runs' ids differ */
+    atomic_uint id_next;
+    _Atomic bool draining; /* no new connections; answers close theirs */
+    _Atomic bool stopping; /* nobody may wait any more */
+} server;
+
+/* Binds and gets all ready. False with a sentence in `fault`; end with server_free in either
+ * case. `settings` must outlive the server. */
+bool server_start(server *s, const settings *settings, char fault[256]);
+/* Accepts and serves until a signal comes from `signals` (signalfd); then refuses new work and
+ * finishes what is under way, at the latest after drain_timeout_s or at a second signal. True
+ * when nothing was cut short. */
+bool server_run(server *s, int signals);
+void server_free(server *s);
+
+#endif

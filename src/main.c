@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* strumd: settings, start, wait for a signal, drain, stop. */
+#include <gsl/gsl_errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include "http/log.h"
+#include "http/server.h"
+#include "http/settings.h"
+
+extern char **environ;
+
+static int serve(const settings *set)
+{
+    server s;
+    char fault[256];
+    sigset_t ends;
+    sigemptyset(&ends);
+    sigaddset(&ends, SIGTERM);
+    sigaddset(&ends, SIGINT);
+    /* Before any thread begins: they inherit it, and the signals come to the descriptor only.
+     */
+    pthread_sigmask(SIG_BLOCK, &ends, NULL);
+    signal(SIGPIPE, SIG_IGN);
+    /* GSL's own handler aborts; its statuses are checked instead. */
+    gsl_set_error_handler_off();
+    const int signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
+    bool clean = false;
+    if (server_start(&s, set, fault)) {
+        log_line line;
+        json_writer *json = log_open(&line, "info", "listening");
+        json_put_string(json, "address", s.at.name);
+        json_put_integer(json, "port", s.at.port);
+        json_put_string(json, "version", STRUM_DAEMON_VERSION);
+        log_close(&line);
+        clean = server_run(&s, signals);
+        log_say(clean ? "info" : "warning", "stopped", "%s",
+                clean ? "all requests were finished" : "requests were cut short");
+    } else {
+        log_say("error", "start", "%s", fault);
+    }
+    server_free(&s);
+    close(signals);
+    return clean ? 0 : 1;
+}
+
+int main(int argc, char *argv[])
+{
+    settings set;
+    settings_action action;
+    text faults = {0};
+    int code = 0;
+    if (!settings_read(&set, argc, argv, environ, &action, &faults)) {
+        fputs(faults.data ? faults.data : "out of memory\n", stderr);
+        code = 2;
+    } else if (action == SETTINGS_HELP) {
+        settings_help(stdout);
+    } else if (action == SETTINGS_VERSION) {
+        puts("strumd " STRUM_DAEMON_VERSION);
+    } else if (action == SETTINGS_PRINT) {
+        settings_print(&set, stdout);
+    } else if (action == SETTINGS_CHECK) {
+        puts("settings are good");
+    } else {
+        code = serve(&set);
+    }
+    text_clear(&faults);
+    settings_clear(&set);
+    return code;
+}
