@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Absorbers: every branch of damping against the variable swept, and the optimum on them. */
+import { brief } from './values.js';
+
+function branches(answer, key, label, title) {
+  const { result } = answer;
+  const sweep = result.sweep;
+  const variable = sweep?.variable ?? answer.request.sweep?.variable;
+  if (!sweep || !variable) return null;
+  const series = (sweep.branches ?? []).map((branch) => {
+    const points = branch.points ?? branch.values ?? [];
+    return { label: `mode ${branch.mode}`, x: points.map((point) => point[variable] ?? point.value), y: points.map((point) => point[key] ?? 0) };
+  }).filter((one) => one.x.length);
+  if (!series.length) return null;
+  const best = result.optimum?.[variable];
+  const positive = series.every((one) => one.x.every((x) => x > 0));
+  const wide = positive && Math.max(...series.flatMap((one) => one.x)) > 50 * Math.min(...series.flatMap((one) => one.x));
+  return { kind: 'chart', key, name: `sweep-${key}`, title, x: { label: variable, log: wide }, y: { label, min: key === 'damping_ratio' ? 0 : undefined }, series,
+    marks: best === undefined ? [] : [{ x: best, label: `optimum ${brief(best, 5)}` }] };
+}
+
+export const absorber = {
+  slow: true,
+  headline: ({ result }) => [
+    { label: 'damping ratio at the optimum', value: result.damping_ratio, unit: '', more: Object.entries(result.optimum ?? {}).map(([name, value]) => `${name} = ${brief(value)}`).join(', ') },
+    result.required_damping_ratio !== undefined && { label: 'required against vortex-induced vibration', value: result.required_damping_ratio, unit: '', more: result.met ? 'met' : 'not met' },
+  ].filter((one) => one && one.value !== undefined),
+  pictures: (answer) => [branches(answer, 'damping_ratio', 'damping ratio', 'Damping of every branch'),
+    branches(answer, 'angular_frequency_rad_per_s', 'angular frequency, rad/s', 'Frequency of every branch')],
+  sweeps: [],
+};

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Any result as tables: what an endpoint without pictures of its own shows, and all the numbers of the others. */
+import { download, h } from './dom.js';
+import { brief, heading } from './values.js';
+
+const ROWS = 400;
+const OPEN_ROWS = 25; /* a longer table is folded away, and built when it is asked for */
+
+function isRecord(value) {
+  return value !== null && typeof value === 'object' && !Array.isArray(value) && !('re' in value && 'im' in value);
+}
+function isFlat(value) {
+  return !isRecord(value) && !Array.isArray(value);
+}
+function words(value) {
+  if (Array.isArray(value)) return value.every(isFlat) ? value.map((one) => brief(one)).join(', ') : `${value.length} items`;
+  if (typeof value === 'boolean') return value ? 'yes' : 'no';
+  return isRecord(value) ? Object.entries(value).map(([name, one]) => `${name} ${words(one)}`).join('; ') : brief(value);
+}
+function raw(value) {
+  if (value === undefined) return '';
+  if (typeof value === 'number') return String(value);
+  const text = typeof value === 'object' ? JSON.stringify(value) : String(value);
+  return `"${text.replaceAll('"', '""')}"`;
+}
+
+/* Columns of a list of records; a list inside a cell is left to its own table. */
+function columnsOf(list) {
+  const names = new Set(list.flatMap((row) => Object.keys(row)));
+  return [...names].filter((name) => !list.some((row) => Array.isArray(row[name]) && row[name].some(isRecord)));
+}
+
+function listTable(name, list) {
+  const columns = columnsOf(list);
+  const csv = () => `${columns.join(',')}\r\n${list.map((row) => columns.map((column) => raw(row[column])).join(',')).join('\r\n')}\r\n`;
+  const left = list.length > ROWS ? h('p', { class: 'note' }, `${list.length - ROWS} more rows are in the CSV and the JSON.`) : null;
+  return h('div', {},
+    h('div', { class: 'wide', tabindex: '0', role: 'region', 'aria-label': heading(name) }, h('table', {},
+      h('caption', {}, heading(name)),
+      h('thead', {}, h('tr', {}, columns.map((column) => h('th', { scope: 'col', class: list.every((row) => typeof (row[column] ?? 0) === 'number') ? 'number' : undefined }, heading(column))))),
+      h('tbody', {}, list.slice(0, ROWS).map((row) => h('tr', {}, columns.map((column) =>
+        h('td', { class: typeof row[column] === 'number' ? 'number' : undefined, title: typeof row[column] === 'number' ? String(row[column]) : undefined }, words(row[column])))))))),
+    left,
+    h('div', { class: 'exports' }, h('button', { type: 'button', 'aria-label': `${heading(name)}: save as CSV`, onclick: () => download(`${name}.csv`, 'text/csv', csv()) }, 'CSV')));
+}
+
+function recordTable(name, record) {
+  const flat = Object.entries(record).filter(([, value]) => isFlat(value) || (Array.isArray(value) && value.length && value.every(isFlat)));
+  if (!flat.length) return null;
+  return h('table', { class: 'record' }, h('caption', {}, heading(name)), h('tbody', {}, flat.map(([key, value]) =>
+    h('tr', {}, h('th', { scope: 'row' }, heading(key)), h('td', { class: typeof value === 'string' ? undefined : typeof value === 'number' ? 'number' : 'list', title: words(value) === String(value) ? undefined : JSON.stringify(value) }, words(value))))));
+}
+
+/* All tables of a value, deepest last. */
+export function tablesOf(name, value, depth = 0) {
+  if (Array.isArray(value)) {
+    if (!value.length) return [h('p', { class: 'note' }, `${heading(name)}: none`)];
+    if (!value.every(isRecord)) return value.every(isFlat) ? [recordTable(name, { [name]: value })] : [];
+    const inner = [];
+    for (const [i, row] of value.entries()) {
+      for (const [key, list] of Object.entries(row)) {
+        if (!Array.isArray(list) || !list.length || !list.every(isRecord)) continue;
+        inner.push(h('details', { ontoggle: (event) => {
+          if (event.target.open && event.target.children.length === 1) event.target.append(...tablesOf(key, list, depth + 1));
+        } }, h('summary', {}, `${heading(name)} ${row.mode ?? i + 1}: ${heading(key)}, ${list.length} rows`)));
+      }
+    }
+    if (value.length <= OPEN_ROWS) return [listTable(name, value), ...inner];
+    return [h('details', { ontoggle: (event) => {
+      if (event.target.open && event.target.children.length === 1) event.target.append(listTable(name, value));
+    } }, h('summary', {}, `${heading(name)}, ${value.length} rows`)), ...inner];
+  }
+  if (!isRecord(value)) return [];
+  const out = [recordTable(name, value)];
+  for (const [key, inner] of Object.entries(value)) {
+    if (isRecord(inner) || (Array.isArray(inner) && !inner.every(isFlat))) out.push(...tablesOf(key, inner, depth + 1));
+    else if (Array.isArray(inner) && !inner.length) out.push(h('p', { class: 'note' }, `${heading(key)}: none`));
+  }
+  return out.filter(Boolean);
+}
