@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""deploy/nginx/strum.conf by a real nginx before two daemons: repeats find their answer, faulty framing does not pass."""
+import json
+import re
+import socket
+import subprocess
+import time
+
+import pytest
+import requests
+
+from conftest import CHEAP, PATIENCE, PATH, ROOT, read_answers, split_answers
+
+CONFIG = ROOT / "deploy/nginx/strum.conf"
+MAIN = """daemon off;
+worker_processes 1;
+pid {folder}/nginx.pid;
+error_log {folder}/error.log;
+{user}
+events {{ worker_connections 256; }}
+http {{
+    access_log off;
+    client_body_temp_path {folder}/t1; proxy_temp_path {folder}/t2; fastcgi_temp_path {folder}/t3;
+    uwsgi_temp_path {folder}/t4; scgi_temp_path {folder}/t5;
+    {strum}
+}}
+"""
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Proxy:
+    """nginx with the shipped file; only its addresses are others."""
+
+    def __init__(self, folder, replicas):
+        self.replicas = replicas
+        self.port = free_port()
+        self.url = f"http://127.0.0.1:{self.port}"
+        text, count = re.subn(r"listen 8080;", f"listen 127.0.0.1:{self.port};", CONFIG.read_text())
+        assert count == 1
+        for number, replica in enumerate(replicas, start=8081):
+            text, count = re.subn(rf"127\.0\.0\.1:{number}\b", f"127.0.0.1:{replica.port}", text)
+            assert count == 2
+        # nginx refuses the line where it is not root, and would otherwise want the user that the package makes
+        user = "user root;" if subprocess.check_output(["id", "-u"]).strip() == b"0" else ""
+        (folder / "nginx.conf").write_text(MAIN.format(folder=folder, strum=text, user=user))
+        self.error_log = folder / "error.log"
+        command = ["nginx", "-c", folder / "nginx.conf", "-p", folder, "-e", self.error_log]
+        checked = subprocess.run([*command, "-t"], capture_output=True, text=True)
+        assert checked.returncode == 0, checked.stderr
+        self.process = subprocess.Popen(command)
+        end = time.monotonic() + PATIENCE
+        while True:
+            try:
+                self.connect().close()
+                break
+            except OSError:
+                assert self.process.poll() is None and time.monotonic() < end, self.error_log.read_text()
+
+    def connect(self):
+        return socket.create_connection(("127.0.0.1", self.port), timeout=PATIENCE)
+
+    def request(self, method, body=None, path=PATH, **arguments):
+        return requests.request(method, self.url + path, json=body, timeout=PATIENCE, **arguments)
+
+    def metric(self, name):
+        return [replica.metric(name) for replica in self.replicas]
+
+
+@pytest.fixture
+def proxy(start_strumd, tmp_path):
+    proxied = Proxy(tmp_path, [start_strumd(), start_strumd()])
+    yield proxied
+    proxied.process.terminate()
+    assert proxied.process.wait(PATIENCE) == 0
+
+
+def question(number):
+    return {**CHEAP, "sag_parameter": 0.5 + 0.001 * number}
+
+
+def test_a_repeated_question_goes_to_the_replica_that_has_its_answer(proxy):
+    for _ in range(5):
+        for number in range(40):
+            assert proxy.request("POST", question(number)).status_code == 200
+    assert sum(proxy.metric("solves_total")) == 40
+    assert sum(proxy.metric("cache_hits_total")) == 160
+    assert min(proxy.metric("solves_total")) > 0
+
+
+def test_query_and_post_share_an_answer_and_large_bodies_are_hashed_too(proxy):
+    for number in range(10):
+        body = json.dumps(question(number)).encode() + b" " * 60000
+        for method in ("POST", "QUERY", "POST"):
+            answer = proxy.request(method, data=body, headers={"Content-Type": "application/json"})
+            assert answer.status_code == 200
+    assert sum(proxy.metric("solves_total")) == 10
+    assert min(proxy.metric("solves_total")) > 0
+
+
+def test_a_chunked_body_is_hashed_as_any_other(proxy):
+    for number in range(10):
+        body = json.dumps(question(number)).encode()
+        for data in (body, iter([body[:5], body[5:]])):
+            answer = proxy.request("POST", data=data, headers={"Content-Type": "application/json"})
+            assert answer.status_code == 200
+    assert sum(proxy.metric("solves_total")) == 10
+
+
+def test_get_keeps_its_replica(proxy):
+    for number in range(20):
+        for status in ("strum; fwd=miss; stored", "strum; hit"):
+            answer = proxy.request("GET", path=f"{PATH}?sag_parameter={0.5 + 0.001 * number}")
+            assert (answer.status_code, answer.headers["Cache-Status"]) == (200, status)
+
+
+def test_an_answer_is_found_by_its_key_wherever_it_lies(proxy):
+    for number in range(20):
+        first = proxy.request("POST", question(number))
+        again = proxy.request("GET", path=first.headers["Content-Location"])
+        assert again.status_code == 200 and again.content == first.content
+    assert proxy.request("GET", path="/v1/results/" + "0" * 64).status_code == 404
+
+
+BODY = b'{"sag_parameter":0.9}'
+
+
+def post(*headers, body=BODY, first=b"POST " + PATH.encode() + b" HTTP/1.1", host=b"Host: a\r\n"):
+    return first + b"\r\n" + host + b"".join(header + b"\r\n" for header in headers) + b"\r\n" + body
+
+
+LENGTH = b"Content-Length: %d" % len(BODY)
+CHUNKED = b"%x\r\n%s\r\n0\r\n\r\n" % (len(BODY), BODY)
+SINS = {
+    "length and chunked": post(b"Content-Length: 6", b"Transfer-Encoding: chunked", body=b"0\r\n\r\nGET / HTTP/1.1\r\n\r\n"),
+    "chunked and length": post(b"Transfer-Encoding: chunked", LENGTH, body=CHUNKED),
+    "unknown coding": post(b"Transfer-Encoding: xchunked", body=CHUNKED),
+    "two codings": post(b"Transfer-Encoding: chunked, identity", body=CHUNKED),
+    "two lengths": post(b"Content-Length: 5", LENGTH),
+    "signed length": post(b"Content-Length: +%d" % len(BODY)),
+    "negative length": post(b"Content-Length: -1"),
+    "list of lengths": post(b"Content-Length: 5, 5"),
+    "length of 20 digits": post(b"Content-Length: " + b"9" * 20),
+    "no Host": post(LENGTH, host=b""),
+    "two Hosts": post(LENGTH, host=b"Host: a\r\nHost: b\r\n"),
+    "blank before colon": post(b"Content-Length : %d" % len(BODY)),
+    "folded header": post(LENGTH, b"X-A: a", b" b"),
+    "NUL in a header": post(LENGTH, b"X-A: a\0b"),
+    "NUL in the path": b"GET /livez%00/b HTTP/1.1\r\nHost: a\r\n\r\n",
+    "method in lower case": b"get /livez HTTP/1.1\r\nHost: a\r\n\r\n",
+    "HTTP/2.9": b"GET /livez HTTP/2.9\r\nHost: a\r\n\r\n",
+}
+
+
+@pytest.fixture(scope="module")
+def shared_proxy(strumd, tmp_path_factory):
+    proxied = Proxy(tmp_path_factory.mktemp("nginx"), [strumd, strumd])
+    yield proxied
+    proxied.process.terminate()
+    assert proxied.process.wait(PATIENCE) == 0
+
+
+def sum_of_requests(strumd):
+    """Requests of others: asking for the metrics counts itself."""
+    return sum(int(line.rsplit(" ", 1)[1]) for line in strumd.get("/metrics").text.splitlines()
+               if line.startswith("strum_requests_total{") and "/metrics" not in line)
+
+
+@pytest.mark.parametrize("name", SINS)
+def test_faulty_framing_does_not_pass(shared_proxy, strumd, name):
+    before = sum_of_requests(strumd)
+    with shared_proxy.connect() as connection:
+        connection.sendall(SINS[name])
+        answers = split_answers(read_answers(connection))
+    assert len(answers) == 1 and answers[0][0] in (400, 413, 501, 505), answers
+    assert sum_of_requests(strumd) == before
+
+
+def test_what_passes_is_written_anew(shared_proxy, strumd):
+    """A bare line feed ends a line for nginx; strumd gets CR LF. Strange header names are dropped."""
+    with shared_proxy.connect() as connection:
+        connection.sendall(b"GET /livez HTTP/1.1\nHost: a\nX(A): b\nConnection: close\n\n")
+        (status, _, body), = split_answers(read_answers(connection))
+    assert (status, body) == (200, b'{"status":"alive"}')
+
+
+def test_who_drips_into_nginx_is_not_seen_by_strumd(shared_proxy, strumd):
+    before = sum_of_requests(strumd)
+    with shared_proxy.connect() as connection:
+        connection.sendall(post(b"Content-Length: 1000"))
+        assert shared_proxy.request("POST", CHEAP).status_code == 200
+        assert sum_of_requests(strumd) == before + 1
+        assert strumd.metric("requests_busy") == 1  # the one that asks
+
+
+def test_refusals_keep_their_form(shared_proxy):
+    too_large = shared_proxy.request("POST", data=b" " * 70000, headers={"Content-Type": "application/json"})
+    faulty = shared_proxy.request("POST", {"modes": 0})
+    for answer, status in ((too_large, 413), (faulty, 400)):
+        assert answer.status_code == status
+        assert answer.headers["Content-Type"] == "application/problem+json"
+        assert answer.json()["status"] == status
+
+
+def test_metrics_are_for_this_machine_only(shared_proxy):
+    assert shared_proxy.request("GET", path="/metrics").status_code == 200
+    for path in (b"/metrics", b"/readyz"):
+        with socket.create_connection(("127.0.0.1", shared_proxy.port), PATIENCE, ("127.0.0.2", 0)) as elsewhere:
+            elsewhere.sendall(b"GET " + path + b" HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n")
+            assert split_answers(read_answers(elsewhere))[0][0] == 403
+
+
+def test_a_replica_that_goes_is_not_missed(proxy):
+    for number in range(20):
+        assert proxy.request("POST", question(number)).status_code == 200
+    gone, left = proxy.replicas
+    gone.process.kill()
+    gone.process.wait(PATIENCE)
+    for number in range(40):
+        assert proxy.request("POST", question(number)).status_code == 200
+    assert left.end() == 0
+    answer = proxy.request("POST", question(1))
+    assert answer.status_code == 503 and answer.headers["Retry-After"] == "1"
+    assert answer.headers["Content-Type"] == "application/problem+json"

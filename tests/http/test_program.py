@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program: its settings, where it listens, its log."""
+import socket
+import subprocess
+
+from conftest import CHEAP, PATIENCE, PATH, PROGRAM
+
+
+def run(*flags, environment=None):
+    return subprocess.run([PROGRAM, *flags], capture_output=True, text=True, timeout=PATIENCE, env=environment)
+
+
+def test_check_config_names_every_fault(tmp_path):
+    file = tmp_path / "strum.conf"
+    file.write_text("cach_bytes = 5\nworkers = some\n")
+    bad = run("--config", str(file), "--check-config", "--listn", environment={"STRUM_RETRY_AFTER_S": "-1"})
+    assert bad.returncode == 2 and bad.stdout == ""
+    lines = bad.stderr.splitlines()
+    assert len(lines) == 4
+    assert lines[0] == f'{file}:1: unknown setting "cach_bytes"; did you mean cache_bytes?'
+    assert lines[1].startswith(f"{file}:2: workers ")
+    assert lines[2].startswith("STRUM_RETRY_AFTER_S: ")
+    assert lines[3] == 'flags: unknown setting "--listn"; did you mean listen?'
+    file.write_text("workers = 2\n")
+    good = run("--config", str(file), "--check-config")
+    assert (good.returncode, good.stderr) == (0, "")
+
+
+def test_faults_keep_it_from_starting():
+    assert run("--workers", "x").returncode == 2
+
+
+def test_precedence(tmp_path):
+    file = tmp_path / "strum.conf"
+    file.write_text("workers = 2\nqueue_depth = 2\nretry_after_s = 2\n")
+    environment = {"STRUM_CONFIG": str(file), "STRUM_QUEUE_DEPTH": "3", "STRUM_RETRY_AFTER_S": "3"}
+    printed = run("--retry-after-s=4", "--print-config", environment=environment).stdout.splitlines()
+    assert {"workers = 2", "queue_depth = 3", "retry_after_s = 4", "listen = 127.0.0.1:8080"} <= set(printed)
+
+
+def test_print_config_reads_back(tmp_path):
+    file = tmp_path / "strum.conf"
+    first = run("--print-config", "--cache-bytes", "3M", "--cors-origins", "https://a.example").stdout
+    file.write_text(first)
+    assert run("--print-config", "--config", str(file)).stdout == first
+
+
+def test_help_and_version():
+    assert "--cache-bytes (64M; " in run("--help").stdout
+    assert run("--version").stdout.startswith("strumd 0.")
+
+
+def test_other_machines_are_kept_out_unless_meant(start_strumd):
+    for where in ("0.0.0.0:0", "[::]:0"):
+        refused = run("--listen", where)
+        assert refused.returncode == 1
+        assert "allow_non_loopback" in refused.stderr
+    strumd = start_strumd("--listen", "0.0.0.0:0", "--allow-non-loopback")
+    with socket.create_connection(("127.0.0.1", strumd.port), timeout=PATIENCE) as connection:
+        connection.sendall(b"GET /livez HTTP/1.1\r\nHost: a\r\n\r\n")
+        assert connection.recv(100).startswith(b"HTTP/1.1 200 ")
+
+
+def test_addresses(start_strumd):
+    strumd = start_strumd("--listen", "[::1]:0")
+    assert strumd.address == f"[::1]:{strumd.port}"
+    assert strumd.get("/livez").status_code == 200
+    assert start_strumd("--listen", "localhost:0").get("/livez").status_code == 200
+    taken = run("--listen", strumd.address)
+    assert taken.returncode == 1 and "Address already in use" in taken.stderr
+    for bad in ("", "127.0.0.1", ":8080", "127.0.0.1:", "127.0.0.1:x", "127.0.0.1:123456", "::1:80", "[::1]",
+                "no.such.host.invalid:80"):
+        refused = run("--listen", bad)
+        assert refused.returncode == 1, bad
+        assert '"event":"start"' in refused.stderr
+
+
+def test_the_log(start_strumd):
+    strumd = start_strumd("--log-requests", "all")
+    strumd.post(CHEAP, headers={"X-Request-Id": "first"})
+    strumd.post(CHEAP)
+    strumd.get("/nothing%22%0A%C3%BF")
+    strumd.end()
+    strumd.wait_log("stopped")
+    lines = [line for line in strumd.log if line["event"] == "request"]
+    assert [line["status"] for line in lines] == [200, 200, 404]
+    assert lines[0]["id"] == "first" and lines[0]["path"] == PATH and lines[0]["bytes"] > 0
+    assert lines[1]["id"]
+    assert all(line["time"].endswith("Z") and line["level"] == "info" for line in lines)
+    for line in strumd.log:
+        assert "sag_parameter" not in str(line)
+
+
+def test_what_is_logged_is_chosen(start_strumd):
+    for level, expected in (("none", []), ("errors", []), ("refusals", [404])):
+        strumd = start_strumd("--log-requests", level)
+        strumd.post(CHEAP)
+        strumd.get("/nothing")
+        strumd.end()
+        strumd.wait_log("stopped")
+        assert [line["status"] for line in strumd.log if line["event"] == "request"] == expected
