@@ -24,6 +24,13 @@ PATH = "/v1/catenary/frequencies"
 CHEAP = {"rise_to_span": 0, "sag_parameter": 0.9, "modes": 6}
 COSTLY = {"rise_to_span": 0, "sag_parameter": 0.9, "modes": 40}
 
+FORCED = "/v1/forced/tension"
+# Minutes of work for a worker that tells how far it is and ends when nobody waits any more.
+ENDLESS = {"sag_parameter": 0.9, "frequency_ratio_min": 0, "frequency_ratio_max": 5, "points": 10000, "eta_normal": 0.1,
+           "harmonics": [{"multiple": n, "tangential": 0.01} for n in range(1, 17)]}
+# What only the mechanics find to be impossible: more modes below this frequency than are answered.
+IMPOSSIBLE = {"sag_parameter": 0.9, "frequency_ratios": [500]}
+
 
 class Strumd:
     """A running daemon: `url`, `port`, `process`, and `log`, its lines so far as dictionaries."""

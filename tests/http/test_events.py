@@ -6,14 +6,10 @@ import socket
 
 import pytest
 
-from conftest import CHEAP, COSTLY, PATIENCE, PATH
-from test_load import ONE_WORKER, answers_of, ask, costly, wait_metric
+from conftest import CHEAP, COSTLY, ENDLESS, FORCED, IMPOSSIBLE, PATIENCE, PATH
+from test_load import ONE_WORKER, held, wait_metric
 
-FORCED = "/v1/forced/tension"
-# Whole seconds of work, during which the endpoint tells how far it is and polls whether somebody still waits.
-LONG = {"sag_parameter": 0.9, "frequency_ratio_min": 0, "frequency_ratio_max": 30, "points": 10000, "eta_normal": 0.1,
-        "harmonics": [{"multiple": 1, "tangential": 0.01}]}
-BRIEF = {**LONG, "points": 12}
+BRIEF = {**ENDLESS, "points": 12}
 EVENTS = {"Accept": "text/event-stream"}
 
 
@@ -91,28 +87,28 @@ def test_refusals_before_the_stream_keep_their_status(start_strumd):
 
 def test_a_full_queue_refuses_with_its_status(start_strumd):
     strumd = start_strumd("--workers", "1", "--queue-depth", "1")
-    busy = [open_events(strumd, {**LONG, "points": 9000 + n}) for n in range(3)]
-    refused = [c for c in busy if b" 503 " in read_until(c, b"\r\n\r\n")]
-    assert len(refused) == 1
-    for connection in busy:
+    with held(strumd):
+        asked = [open_events(strumd, COSTLY | {"sag_parameter": 0.5 + 0.1 * n}, PATH) for n in range(2)]
+        wait_metric(strumd, "queue_refused_total", 1)
+    heads = sorted(read_until(connection, b"\r\n\r\n").split(b"\r\n")[0] for connection in asked)
+    assert heads == [b"HTTP/1.1 200 OK", b"HTTP/1.1 503 Service Unavailable"]
+    for connection in asked:
         connection.close()
 
 
 def test_a_refusal_by_a_worker_is_a_problem(start_strumd):
-    strumd = start_strumd(*ONE_WORKER, "--inline-us", "0")
-    before = ask(strumd, [costly(1)])
-    answer = strumd.post({"span_m": 100, "rise_m": 0, "length_m": 90}, headers=EVENTS)
-    if answer.status_code == 200:
-        (event, data), = events(answer)
-        assert event == "problem" and json.loads(data)["status"] == 422
-    else:
-        assert answer.status_code == 422
-    answers_of(before)
+    strumd = start_strumd(*ONE_WORKER)
+    with held(strumd, 1):
+        connection = open_events(strumd, IMPOSSIBLE)
+        got = read_until(connection, b"\r\n\r\n")
+    with connection:
+        got += read_until(connection, b"0\r\n\r\n")
+    assert got.startswith(b"HTTP/1.1 200 ") and b"event: problem\ndata: {" in got and b'"status":422' in got
 
 
 def test_who_leaves_ends_the_work(start_strumd):
     strumd = start_strumd(*ONE_WORKER)
-    connection = open_events(strumd, LONG)
+    connection = open_events(strumd, ENDLESS)
     read_until(connection, b"event: progress")
     assert strumd.metric("workers_busy") == 1
     connection.close()
@@ -123,7 +119,7 @@ def test_who_leaves_ends_the_work(start_strumd):
 
 def test_who_leaves_does_not_end_it_for_others(start_strumd):
     strumd = start_strumd(*ONE_WORKER)
-    body = {**LONG, "points": 50}
+    body = {**ENDLESS, "points": 50}
     leaving, staying = open_events(strumd, body), open_events(strumd, body)
     read_until(leaving, b"event: progress")
     read_until(staying, b"event: progress")
@@ -135,7 +131,7 @@ def test_who_leaves_does_not_end_it_for_others(start_strumd):
 
 def test_who_waits_too_long_gets_a_problem(start_strumd):
     strumd = start_strumd(*ONE_WORKER, "--solve-timeout-s", "0.3")
-    *told, (event, data) = events(strumd.post(LONG, FORCED, headers=EVENTS))
+    *told, (event, data) = events(strumd.post(ENDLESS, FORCED, headers=EVENTS))
     assert told and event == "problem"
     assert json.loads(data)["status"] == 503 and "solve_timeout_s" in data
     wait_metric(strumd, "workers_busy", 0)
@@ -146,7 +142,7 @@ def test_who_waits_too_long_gets_a_problem(start_strumd):
 def test_the_way_out(start_strumd, signals):
     """One signal: it is finished. Two: what is under way is a problem, and nothing aborts."""
     strumd = start_strumd(*ONE_WORKER)
-    connection = open_events(strumd, {**LONG, "points": 10000 if signals == 2 else 12})
+    connection = open_events(strumd, {**ENDLESS, "points": 10000 if signals == 2 else 12})
     got = read_until(connection, b"event: progress")
     for _ in range(signals):
         strumd.process.send_signal(signal.SIGTERM)
