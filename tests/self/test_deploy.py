@@ -75,7 +75,7 @@ def test_settings_are_known():
 
 def packages_of(program):
     """The Debian packages of the libraries that the program names."""
-    needed = re.findall(r"NEEDED.*\[(.*)\]", subprocess.check_output(["readelf", "-d", program], text=True))
+    needed = re.findall(r"NEEDED.*\[(lib.*)\]", subprocess.check_output(["readelf", "-d", program], text=True))
     paths = dict(re.findall(r"(\S+) => (\S+)", subprocess.check_output(["ldd", program], text=True)))
     for library in needed:
         path = pathlib.Path(paths[library])
