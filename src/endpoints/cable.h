@@ -25,6 +25,10 @@ typedef struct cable_input {
     double rad_per_s; /* rad/s of frequency_ratio 1; 0 when not known */
 } cable_input;
 
+/* Least length, mass, weight, gravity and stiffness in their SI units: far below any cable's,
+ * and quotients of two of them stay finite. */
+#define CABLE_LEAST 1e-9
+
 #define CABLE_FIELDS                                                                           \
     {FIELD_AT(FIELD_NUMBER, cable_input, rise_to_span),                                        \
      .unit = "1",                                                                              \
@@ -46,48 +50,31 @@ typedef struct cable_input {
          .max = STRUM_CHI_MAX, .help = "x/a of end 1: asinh of the slope there"},              \
         {FIELD_AT(FIELD_NUMBER, cable_input, chi_2), .unit = "1", .min = -STRUM_CHI_MAX,       \
          .max = STRUM_CHI_MAX, .help = "x/a of end 2, above chi_1"},                           \
-        {FIELD_AT(FIELD_NUMBER, cable_input, span_m),                                          \
-         .unit = "m",                                                                          \
-         .min = 0,                                                                             \
-         .max = 1e6,                                                                           \
-         .flags = FIELD_OPEN_MIN,                                                              \
-         .help = "horizontal distance of the supports"},                                       \
+        {FIELD_AT(FIELD_NUMBER, cable_input, span_m), .unit = "m", .min = CABLE_LEAST,         \
+         .max = 1e6, .help = "horizontal distance of the supports"},                           \
         {FIELD_AT(FIELD_NUMBER, cable_input, rise_m),                                          \
          .unit = "m",                                                                          \
          .min = -1e6,                                                                          \
          .max = 1e6,                                                                           \
          .flags = FIELD_DEFAULT,                                                               \
          .help = "height of end 2 above end 1"},                                               \
-        {FIELD_AT(FIELD_NUMBER, cable_input, length_m),                                        \
-         .unit = "m",                                                                          \
-         .min = 0,                                                                             \
-         .max = 1e7,                                                                           \
-         .flags = FIELD_OPEN_MIN,                                                              \
-         .help = "length of the hanging cable, longer than the chord"},                        \
-        {FIELD_AT(FIELD_NUMBER, cable_input, unstretched_length_m),                            \
-         .unit = "m",                                                                          \
-         .min = 0,                                                                             \
-         .max = 1e7,                                                                           \
-         .flags = FIELD_OPEN_MIN,                                                              \
+        {FIELD_AT(FIELD_NUMBER, cable_input, length_m), .unit = "m", .min = CABLE_LEAST,       \
+         .max = 1e7, .help = "length of the hanging cable, longer than the chord"},            \
+        {FIELD_AT(FIELD_NUMBER, cable_input, unstretched_length_m), .unit = "m",               \
+         .min = CABLE_LEAST, .max = 1e7,                                                       \
          .help = "length without load: modes about the exact elastic catenary"},               \
         {FIELD_AT(FIELD_NUMBER, cable_input, gravity_m_per_s2),                                \
          .unit = "m/s^2",                                                                      \
-         .min = 0,                                                                             \
+         .min = CABLE_LEAST,                                                                   \
          .max = 1e4,                                                                           \
-         .flags = FIELD_OPEN_MIN | FIELD_DEFAULT,                                              \
+         .flags = FIELD_DEFAULT,                                                               \
          .fallback = 9.80665,                                                                  \
          .help = "acceleration of gravity"},                                                   \
-        {FIELD_AT(FIELD_NUMBER, cable_input, mass_kg_per_m),                                   \
-         .unit = "kg/m",                                                                       \
-         .min = 0,                                                                             \
-         .max = 1e6,                                                                           \
-         .flags = FIELD_OPEN_MIN,                                                              \
+        {FIELD_AT(FIELD_NUMBER, cable_input, mass_kg_per_m), .unit = "kg/m",                   \
+         .min = CABLE_LEAST, .max = 1e6,                                                       \
          .help = "mass per length (per unstretched length where that is given)"},              \
-        {FIELD_AT(FIELD_NUMBER, cable_input, weight_N_per_m),                                  \
-         .unit = "N/m",                                                                        \
-         .min = 0,                                                                             \
-         .max = 1e8,                                                                           \
-         .flags = FIELD_OPEN_MIN,                                                              \
+        {FIELD_AT(FIELD_NUMBER, cable_input, weight_N_per_m), .unit = "N/m",                   \
+         .min = CABLE_LEAST, .max = 1e8,                                                       \
          .help = "weight per length; default mass times gravity, less in water"},              \
         {FIELD_AT(FIELD_NUMBER, cable_input, added_mass_kg_per_m),                             \
          .unit = "kg/m",                                                                       \
@@ -101,12 +88,8 @@ typedef struct cable_input {
          .max = 1e4,                                                                           \
          .flags = FIELD_DEFAULT,                                                               \
          .help = "kappa = S0/k: horizontal tension over axial stiffness; 0: inextensible"},    \
-        {FIELD_AT(FIELD_NUMBER, cable_input, axial_stiffness_N),                               \
-         .unit = "N",                                                                          \
-         .min = 0,                                                                             \
-         .max = 1e15,                                                                          \
-         .flags = FIELD_OPEN_MIN,                                                              \
-         .help = "EA of the cable"},                                                           \
+        {FIELD_AT(FIELD_NUMBER, cable_input, axial_stiffness_N), .unit = "N",                  \
+         .min = CABLE_LEAST, .max = 1e15, .help = "EA of the cable"},                          \
         {FIELD_AT(FIELD_NUMBER, cable_input, eta_tangential),                                  \
          .unit = "1",                                                                          \
          .min = 0,                                                                             \
