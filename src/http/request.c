@@ -56,8 +56,6 @@ static enum MHD_Result look_at(void *cls, enum MHD_ValueKind kind, const char *n
      * would be the next request. */
     if (!is_token(name, name_size))
         h->fault = "a header's name has a character that no name may have";
-    else if (memchr(value, '\0', value_size))
-        h->fault = "a header's value has a NUL";
 #define IS(text) (name_size == sizeof text - 1 && strcasecmp(name, text) == 0)
     else if (IS("Host"))
         h->hosts++;

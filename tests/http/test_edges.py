@@ -50,6 +50,10 @@ EDGES = {
     "two requests at once": (SECOND, 200, False),
     "body over the limit": (post(length(65537), body=b""), 413, True),
     "body far over the limit": (post(length(10**12), body=b""), 413, True),
+    # What libmicrohttpd does not show its caller; deploy/README.md lists it, and nginx stops it.
+    "bare line feeds": (b"GET /livez HTTP/1.1\nHost: a\n\n", 200, False),
+    "folded header": (post(length(), b"X-A: 1\r\n 2"), 200, False),
+    "NUL in a header": (post(length(), b"X-A: a\0b"), 200, False),
     "over the limit, asked before": (post(length(65537), b"Expect: 100-continue", body=b""), 413, True),
     "wrong type, asked before": (post(length(), b"Content-Type: a/b", b"Expect: 100-continue", body=b""), 415, True),
 }
