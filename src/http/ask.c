@@ -42,12 +42,13 @@ typedef struct telling {
     watch watch;
     cache *cache;
     flight *flight;
-    int64_t told_ms;
+    int64_t told_ms, steps;
 } telling;
 
 static void tell(watch *w, const progress *so_far)
 {
     telling *t = (telling *)(void *)w;
+    t->steps = so_far->evaluations;
     const int64_t now = clock_ms();
     if (t->told_ms && now - t->told_ms < TELL_MS)
         return;
@@ -62,6 +63,7 @@ void ask_fly(server *s, const asking *a, const cache_key *key, flight *f, double
         {.cancel = flight_cancel(f), .progress = tell}, .cache = s->cache, .flight = f};
     entry *e = entry_solve(a, key, &t.watch);
     if (e) {
+        metrics_solve(s->metrics, e->status, e->solve_us, t.steps);
         e->queue_us = queue_us;
         if (e->status == 200 && !e->transient)
             reply_make_face(s, e);

@@ -13,14 +13,24 @@ static const int statuses[] = {200, 204, 304, 400, 401, 404, 405,
                                413, 415, 422, 500, 501, 503, 0};
 #define STATUSES (sizeof statuses / sizeof *statuses)
 
+/* Latency buckets: upper bounds in microseconds; the last bucket takes the rest. */
+static const uint64_t bounds_us[] = {100,     250,     500,     1000,    2500,   5000,
+                                     10000,   25000,   50000,   100000,  250000, 500000,
+                                     1000000, 2500000, 5000000, 10000000};
+#define BOUNDS (sizeof bounds_us / sizeof *bounds_us)
+
+typedef struct route_metrics {
+    atomic_uint_fast64_t requests[STATUSES], took[BOUNDS + 1], took_us;
+} route_metrics;
+
 struct metrics {
-    atomic_uint_fast64_t bytes;
-    atomic_uint_fast64_t requests[][STATUSES]; /* by route */
+    atomic_uint_fast64_t bytes, solve_us, solve_steps, solve_failures;
+    route_metrics routes[];
 };
 
 metrics *metrics_new(void)
 {
-    return calloc(1, sizeof(metrics) + route_count() * sizeof(((metrics *)0)->requests[0]));
+    return calloc(1, sizeof(metrics) + route_count() * sizeof(route_metrics));
 }
 
 void metrics_free(metrics *m)
@@ -28,13 +38,30 @@ void metrics_free(metrics *m)
     free(m);
 }
 
-void metrics_request(metrics *m, size_t index, int status, size_t bytes)
+static void add(atomic_uint_fast64_t *counter, uint64_t amount)
 {
-    size_t i = 0;
+    atomic_fetch_add_explicit(counter, amount, memory_order_relaxed);
+}
+
+void metrics_request(metrics *m, size_t index, int status, size_t bytes, double us)
+{
+    route_metrics *r = &m->routes[index];
+    size_t i = 0, bucket = 0;
     while (statuses[i] != status && statuses[i] != 0)
         i++;
-    atomic_fetch_add_explicit(&m->requests[index][i], 1, memory_order_relaxed);
-    atomic_fetch_add_explicit(&m->bytes, bytes, memory_order_relaxed);
+    while (bucket < BOUNDS && us > (double)bounds_us[bucket])
+        bucket++;
+    add(&r->requests[i], 1);
+    add(&r->took[bucket], 1);
+    add(&r->took_us, (uint64_t)us);
+    add(&m->bytes, bytes);
+}
+
+void metrics_solve(metrics *m, int status, double us, int64_t steps)
+{
+    add(&m->solve_us, (uint64_t)us);
+    add(&m->solve_steps, (uint64_t)steps);
+    add(&m->solve_failures, status != 200);
 }
 
 static void value(text *out, const char *name, const char *kind, const char *help,
@@ -50,7 +77,7 @@ static void write_requests(const metrics *m, text *out)
                          "# TYPE strum_requests_total counter\n");
     for (size_t index = 0; index < route_count(); index++) {
         for (size_t i = 0; i < STATUSES; i++) {
-            const uint64_t count = m->requests[index][i];
+            const uint64_t count = m->routes[index].requests[i];
             char status[16] = "other";
             if (statuses[i])
                 snprintf(status, sizeof status, "%d", statuses[i]);
@@ -62,11 +89,44 @@ static void write_requests(const metrics *m, text *out)
     }
 }
 
+/* Whole microseconds as seconds: exact, whatever the locale. */
+static void write_seconds(uint64_t us, text *out)
+{
+    text_format(out, "%" PRIu64 ".%06" PRIu64 "\n", us / 1000000, us % 1000000);
+}
+
+static void write_latency(const metrics *m, text *out)
+{
+    text_add_string(out,
+                    "# HELP strum_request_seconds Time from a request's headers to the first "
+                    "byte of its answer.\n# TYPE strum_request_seconds histogram\n");
+    for (size_t index = 0; index < route_count(); index++) {
+        const route_metrics *r = &m->routes[index];
+        const char *path = route_path(index);
+        uint64_t below[BOUNDS + 1], total = 0;
+        for (size_t i = 0; i <= BOUNDS; i++)
+            below[i] = total += r->took[i];
+        if (!total)
+            continue;
+        for (size_t i = 0; i < BOUNDS; i++)
+            text_format(out,
+                        "strum_request_seconds_bucket{route=\"%s\",le=\"%g\"} %" PRIu64 "\n",
+                        path, (double)bounds_us[i] * 1e-6, below[i]);
+        text_format(out, "strum_request_seconds_bucket{route=\"%s\",le=\"+Inf\"} %" PRIu64 "\n",
+                    path, total);
+        text_format(out, "strum_request_seconds_count{route=\"%s\"} %" PRIu64 "\n", path,
+                    total);
+        text_format(out, "strum_request_seconds_sum{route=\"%s\"} ", path);
+        write_seconds(r->took_us, out);
+    }
+}
+
 void metrics_write(server *s, text *out)
 {
     const cache_counters c = cache_count(s->cache);
     const crew_counters w = crew_count(s->crew);
     write_requests(s->metrics, out);
+    write_latency(s->metrics, out);
     value(out, "response_bytes_total", "counter", "Bytes of answers' bodies.",
           s->metrics->bytes);
     value(out, "cache_hits_total", "counter", "Requests answered from the store.", c.hits);
@@ -74,6 +134,16 @@ void metrics_write(server *s, text *out)
     value(out, "cache_joins_total", "counter",
           "Requests that waited for an equal one under way.", c.joins);
     value(out, "solves_total", "counter", "Answers computed.", c.solves);
+    text_add_string(out,
+                    "# HELP strum_solve_seconds_total Time spent computing answers.\n"
+                    "# TYPE strum_solve_seconds_total counter\nstrum_solve_seconds_total ");
+    write_seconds(s->metrics->solve_us, out);
+    value(out, "solve_steps_total", "counter",
+          "Steps of long computations: trial points of optimisations, forcing frequencies.",
+          s->metrics->solve_steps);
+    value(out, "solve_failures_total", "counter",
+          "Computations that ended without an answer: impossible, given up, or failed.",
+          s->metrics->solve_failures);
     value(out, "cancels_total", "counter", "Answers given up: nobody waited any more.",
           c.cancels);
     value(out, "cache_evictions_total", "counter", "Answers dropped for room.", c.evictions);

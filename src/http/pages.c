@@ -7,6 +7,7 @@
 
 #include "http/assets.h"
 #include "http/clock.h"
+#include "commit.h"
 #include "http/reply.h"
 #include "http/server.h"
 
@@ -46,6 +47,7 @@ enum MHD_Result page_version(peer *p)
     json_open_object(&json);
     json_put_string(&json, "name", "strumd");
     json_put_string(&json, "version", STRUM_DAEMON_VERSION);
+    json_put_string(&json, "commit", COMMIT);
     json_put_string(&json, "solver", strum_version());
     json_put_string(&json, "libmicrohttpd", MHD_get_version());
     json_close_object(&json);

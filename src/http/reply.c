@@ -46,7 +46,8 @@ static bool cors_add(const peer *p, struct MHD_Response *response)
         return false;
     header(response, "Access-Control-Allow-Origin", p->request.origin);
     header(response, "Access-Control-Expose-Headers",
-           "ETag, Content-Location, Cache-Status, Server-Timing, X-Request-Id, Retry-After");
+           "ETag, Content-Location, Cache-Status, Server-Timing, X-Request-Id, traceparent, "
+           "Retry-After");
     return true;
 }
 
@@ -59,9 +60,16 @@ static void log_request(const peer *p, int status, size_t size)
     if (which == LOG_NONE || (which == LOG_ERRORS && (status < 500 || status == 501)) ||
         (which == LOG_REFUSALS && status < 400))
         return;
+    /* What went well may be too much to log it all. */
+    if (status < 400 && atomic_fetch_add_explicit(&p->server->logged, 1, memory_order_relaxed) %
+                                (uint64_t)p->server->settings->log_sample !=
+                            0)
+        return;
     log_line line;
     json_writer *json = log_open(&line, status < 500 ? "info" : "error", "request");
     json_put_string(json, "id", r->id);
+    if (r->traceparent)
+        json_put_string(json, "traceparent", r->traceparent);
     json_put_string(json, "path", r->url);
     json_put_integer(json, "status", status);
     json_put_integer(json, "bytes", (int64_t)size);
@@ -79,7 +87,8 @@ static void make_id(peer *p)
 /* Sends `response` as it is. */
 static enum MHD_Result queue(peer *p, int status, struct MHD_Response *response, size_t size)
 {
-    metrics_request(p->server->metrics, p->request.route.index, status, size);
+    const request *r = &p->request;
+    metrics_request(p->server->metrics, r->route.index, status, size, clock_us() - r->began_us);
     peer_enter(p, PEER_SENDING, p->server->settings->request_timeout_s);
     return MHD_queue_response(p->connection, (unsigned)status, response);
 }
@@ -91,6 +100,8 @@ static enum MHD_Result finish(peer *p, int status, struct MHD_Response *response
         return queue(p, 503, p->server->no_memory, 0);
     make_id(p);
     header(response, "X-Request-Id", p->request.id);
+    if (p->request.traceparent)
+        header(response, "traceparent", p->request.traceparent);
     cors_add(p, response);
     if (status == 503) {
         char seconds[24];
@@ -203,7 +214,7 @@ enum MHD_Result reply_entry(peer *p, entry *e, reply_source source)
     if (!e)
         return queue(p, 503, p->server->no_memory, 0);
     const bool plain = source == REPLY_HIT && e->face && r->method == METHOD_POST &&
-                       !r->if_none_match && !r->given_id && !r->close &&
+                       !r->if_none_match && !r->given_id && !r->traceparent && !r->close &&
                        (!r->origin || !*p->server->settings->cors_origins) &&
                        !p->server->draining && p->server->settings->log_requests != LOG_ALL;
     if (plain) {

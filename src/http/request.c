@@ -44,6 +44,18 @@ static bool is_id(const char *value, size_t size)
     return size > 0 && size < REQUEST_ID_SIZE;
 }
 
+/* version-trace-parent-flags (W3C Trace Context 3.2), in lower-case hexadecimal digits. */
+static bool is_traceparent(const char *value, size_t size)
+{
+    static const char form[] = "xx-xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx-xxxxxxxxxxxxxxxx-xx";
+    for (size_t i = 0; i < size && i < sizeof form; i++)
+        if (form[i] == 'x'
+                ? !isxdigit((unsigned char)value[i]) || isupper((unsigned char)value[i])
+                : form[i] != value[i])
+            return false;
+    return size == sizeof form - 1;
+}
+
 static enum MHD_Result look_at(void *cls, enum MHD_ValueKind kind, const char *name,
                                size_t name_size, const char *value, size_t value_size)
 {
@@ -79,6 +91,8 @@ static enum MHD_Result look_at(void *cls, enum MHD_ValueKind kind, const char *n
         r->if_none_match = value;
     else if (IS("Access-Control-Request-Method"))
         r->accept_method = value;
+    else if (IS("traceparent") && is_traceparent(value, value_size))
+        r->traceparent = value;
     else if (IS("X-Request-Id") && is_id(value, value_size)) {
         memcpy(r->id, value, value_size + 1);
         r->given_id = true;
@@ -211,9 +225,7 @@ enum MHD_Result request_begin(peer *p, const char *url, const char *verb, const 
 {
     request *r = &p->request;
     reset(r);
-    /* The exact clock costs more than the rest of this. */
-    const bool exact = p->server->settings->log_requests == LOG_ALL;
-    r->began_us = exact ? clock_us() : (double)clock_ms() * 1e3;
+    r->began_us = clock_us();
     peer_enter(p, PEER_READING, p->server->settings->request_timeout_s);
     note_url(r, url);
     r->method = method_of(verb);

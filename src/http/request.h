@@ -21,6 +21,7 @@ typedef struct request {
     char url[96]; /* for messages: printable, cut */
     /* headers that matter; libmicrohttpd's, valid as long as the request */
     const char *origin, *if_none_match, *accept, *accept_method;
+    const char *traceparent;  /* W3C Trace Context; NULL: none, or none that can be read */
     char id[REQUEST_ID_SIZE]; /* X-Request-Id; empty until one is needed */
     bool close;               /* the connection ends with the answer */
     bool is_lines;            /* the body is application/x-ndjson */

@@ -28,6 +28,7 @@ typedef struct server {
     size_t accepted;    /* connections handed to libmicrohttpd */
     uint32_t id_prefix; /* of request ids, so that two runs' ids differ */
     atomic_uint id_next;
+    atomic_uint_fast64_t logged; /* requests that went well and might be logged */
     _Atomic bool draining; /* no new connections; answers close theirs */
     _Atomic bool stopping; /* nobody may wait any more */
 } server;

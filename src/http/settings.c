@@ -78,6 +78,8 @@ static const setting table[] = {
      "origins whose pages may read answers: a comma-separated list, or *; none by default"},
     {"log_requests", SETTING_CHOICE, AT(log_requests), 0, LOG_ALL, "errors",
      "requests to log: none, errors (5xx), refusals (4xx and 5xx) or all"},
+    {"log_sample", SETTING_COUNT, AT(log_sample), 1, 1e9, "1",
+     "of requests that went well, one in so many is logged; errors and refusals always are"},
 };
 #define ROWS (sizeof table / sizeof *table)
 

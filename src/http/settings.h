@@ -28,6 +28,7 @@ typedef struct settings {
     int64_t retry_after_s;
     char *cors_origins, *token_file;
     int64_t log_requests; /* enum log_requests */
+    int64_t log_sample;
 } settings;
 
 typedef enum settings_action {

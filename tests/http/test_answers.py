@@ -237,7 +237,7 @@ def test_pages(strumd):
     assert strumd.get("/livez").json() == {"status": "alive"}
     assert strumd.get("/readyz").json() == {"status": "ready"}
     version = strumd.get("/version").json()
-    assert version["name"] == "strumd"
+    assert version["name"] == "strumd" and re.fullmatch(r"[0-9a-f]{12}|unknown", version["commit"])
     assert re.fullmatch(r"\d+\.\d+\.\d+", version["version"])
     assert re.fullmatch(r"\d+\.\d+\.\d+", version["solver"])
     metrics = strumd.get("/metrics")
@@ -245,4 +245,4 @@ def test_pages(strumd):
     names = [line.split()[2] for line in metrics.text.splitlines() if line.startswith("# TYPE ")]
     assert len(names) == len(set(names))
     for line in metrics.text.splitlines():
-        assert line.startswith("# ") or re.fullmatch(r'strum_\w+(\{(\w+="[^"]*",?)+\})? \d+', line), line
+        assert line.startswith("# ") or re.fullmatch(r'strum_\w+(\{(\w+="[^"]*",?)+\})? \d+(\.\d{6})?', line), line
