@@ -80,26 +80,28 @@ static void outcome_clear(outcome *o)
     text_clear(&o->fault);
 }
 
-/* A refusal was expected: with this status, at these fields, neither more nor fewer. */
+/* A refusal was expected: with this status, at these places, neither more nor fewer. A place
+ * may be named twice, as the request's root is where two groups are missing. */
 static void judge_refusal(const cJSON *expect, const problem *p, outcome *o)
 {
     const cJSON *status = cJSON_GetObjectItemCaseSensitive(expect, "status");
     const cJSON *errors = cJSON_GetObjectItemCaseSensitive(expect, "errors"), *pointer;
     o->compared.values = 1;
-    if (p->status != (int)status->valuedouble)
+    if (p->status != (int)status->valuedouble) {
         text_format(&o->fault, "status %d, expected %d", p->status, (int)status->valuedouble);
-    else if (errors && (size_t)cJSON_GetArraySize(errors) != p->count)
-        text_format(&o->fault, "%zu fields named, expected %d", p->count,
-                    cJSON_GetArraySize(errors));
-    else
-        cJSON_ArrayForEach(pointer, errors)
-        {
-            size_t i = 0;
-            while (i < p->count && strcmp(p->entries[i].pointer, pointer->valuestring) != 0)
-                i++;
-            if (i == p->count && !o->fault.size)
-                text_format(&o->fault, "%s was not named", pointer->valuestring);
-        }
+        return;
+    }
+    size_t named = 0;
+    cJSON_ArrayForEach(pointer, errors)
+    {
+        const size_t before = named;
+        for (size_t i = 0; i < p->count; i++)
+            named += strcmp(p->entries[i].pointer, pointer->valuestring) == 0;
+        if (named == before && !o->fault.size)
+            text_format(&o->fault, "\"%s\" was not named", pointer->valuestring);
+    }
+    if (errors && named != p->count && !o->fault.size)
+        text_format(&o->fault, "%zu faults named, %zu of them expected", p->count, named);
 }
 
 static void judge_answer(const cJSON *expect, const text *answered, const problem *p,

@@ -27,7 +27,7 @@ def as_complex(value):
 
 
 @pytest.mark.parametrize("family", ["gale/table B-3", "gale/table C-2", "sergev_iwan/table 1", "catenary/refused/range",
-                                    "catenary/overdamped", "catenary/mode_shape"])
+                                    "catenary/overdamped", "catenary/mode_shape", "inclined/refused/missing"])
 def test_a_family_as_its_file_has_it(strumd, family):
     name = "".join(c if c.isalnum() else "_" for c in family)
     said = result(strumd, family=name, values=True)
