@@ -59,7 +59,7 @@ def code(text):
 
 
 def number(value):
-    return f"{value:g}" if isinstance(value, (int, float)) and not isinstance(value, bool) else str(value)
+    return f"{value:g}".replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
 
 
 def value_range(schema):
@@ -68,6 +68,8 @@ def value_range(schema):
         return " | ".join(map(str, schema["enum"]))
     if "const" in schema:
         return json.dumps(schema["const"])
+    if "maxLength" in schema:
+        return f"a name: up to {schema['maxLength']} letters, digits, _"
     parts = [f"{sign} {number(schema[key])}" for key, sign in
              (("exclusiveMinimum", ">"), ("minimum", "≥"), ("exclusiveMaximum", "<"), ("maximum", "≤")) if key in schema]
     if "oneOf" in schema:
@@ -93,6 +95,15 @@ def kind_of(schema):
     if "const" in schema or "enum" in schema:
         return "choice"
     return {"boolean": "flag", "string": "text"}.get(schema.get("type", "object"), schema.get("type", "object"))
+
+
+def wanted(expect):
+    """An expected value of an example, or a few of a list, as text."""
+    names = ", ".join(expect.get("members", []))
+    shown = expect["value"] if "value" in expect else expect["values"]
+    more = len(shown) - 6 if isinstance(shown, list) else 0
+    text = json.dumps(shown[:6])[1:-1] + (f", and {more} more" if more > 0 else "") if isinstance(shown, list) else json.dumps(shown)
+    return f"{names}: {text}" if names else text
 
 
 class Reference:
@@ -123,36 +134,43 @@ class Reference:
             items = self.resolve(schema["items"])
             if items.get("type") == "object" or "allOf" in items:
                 return [("", items)]
-            if "discriminator" in items:
+            if any("properties" in self.resolve(one) for one in items.get("oneOf", [])) and "title" in items["oneOf"][0]:
                 return [(one["title"], self.resolve(one)) for one in items["oneOf"]]
             return []
         if self.members(schema) and schema.get("type", "object") == "object" and set(self.members(schema)) != {"re", "im"}:
             return [("", schema)]
         return []
 
-    def rows(self, schema, needed, depth=0):
+    def rows(self, schema, needed, asked, depth=0):
         schema = self.resolve(schema)
         required = set(schema.get("required", []))
         for name, member in self.members(schema).items():
             member = self.resolve(member)
             default = member.get("default")
             shown = needed if name in required else "" if default is None else json.dumps(default)
+            # Whole objects and lists of them have their example field by field, in the rows below; what may stand
+            # for a number is the same everywhere, and is told once.
+            inside, number_too = self.inner(member), any(one.get("type") == "number" for one in member.get("oneOf", []))
+            example = "" if inside and not number_too else "".join(json.dumps(one) for one in member.get("examples", []))
             yield (f'<tr><th scope="row" class="deep{depth}"><code>{escape(name)}</code></th><td>{escape(kind_of(member))}</td>'
-                   f'<td>{escape(member.get("x-unit", ""))}</td><td>{escape(value_range(member))}</td>'
-                   f'<td>{escape(shown)}</td><td>{code(member.get("description", ""))}</td></tr>')
-            if depth >= 4:
+                   f'<td>{escape(member.get("x-unit", ""))}</td><td>{escape(value_range(member))}</td><td>{escape(shown)}</td>'
+                   + f'<td>{escape(example)}</td>' * asked + f'<td>{code(member.get("description", ""))}</td></tr>')
+            if depth >= 4 or (number_too and tuple(self.members(member)) in self.told):
                 continue
-            for lead, inner in self.inner(member):
+            self.told |= {tuple(self.members(member))} if number_too else set()
+            for lead, inner in inside:
                 if lead:
                     yield (f'<tr><th scope="row" class="deep{depth + 1}"><code>type: {escape(lead)}</code></th>'
-                           f'<td colspan="4"></td><td>{code(inner.get("description", ""))}</td></tr>')
-                yield from self.rows(inner, needed, depth + 1 + bool(lead))
+                           f'<td colspan="{4 + asked}"></td><td>{code(inner.get("description", ""))}</td></tr>')
+                yield from self.rows(inner, needed, asked, depth + 1 + bool(lead))
 
-    def table(self, schema, caption, last, needed):
-        return (f'<div class="wide" tabindex="0" role="region" aria-label="{escape(caption)}"><table class="fields">'
+    def table(self, schema, caption, last, needed, asked=False):
+        self.told = set()
+        return (f'<div class="wide" tabindex="0" role="region" aria-label="{escape(caption)}"><table class="fields{" asked" * asked}">'
                 f'<caption>{escape(caption)}</caption><thead><tr><th scope="col">field</th><th scope="col">kind</th>'
                 f'<th scope="col">unit</th><th scope="col">range</th><th scope="col">{last}</th>'
-                f'<th scope="col">meaning</th></tr></thead><tbody>{"".join(self.rows(schema, needed))}</tbody></table></div>')
+                + '<th scope="col">example</th>' * asked +
+                f'<th scope="col">meaning</th></tr></thead><tbody>{"".join(self.rows(schema, needed, asked))}</tbody></table></div>')
 
     def groups(self, schema):
         out = []
@@ -169,7 +187,9 @@ class Reference:
         answer = post["responses"]["200"]["content"]["application/json"]
         asked, answered = ([self.resolve(one).get("value", {}) for one in part.get("examples", {}).values()] or [{}]
                            for part in (content, answer))
-        title = next((self.resolve(one).get("summary", "") for one in content.get("examples", {}).values()), "")
+        example = self.resolve(next(iter(content["examples"].values())))
+        expected = "".join(f'<tr><th scope="row"><code>{escape(one["pointer"])}</code></th><td>{escape(wanted(one))}</td></tr>'
+                           for one in example.get("x-expect", []))
         body = json.dumps(asked[0])
         result = self.members(answer["schema"]).get("result", {})
         verbs = ["POST", "QUERY"] + ["GET"] * ("get" in item)
@@ -177,10 +197,14 @@ class Reference:
 <p class="path">{" ".join(f"<code>{verb}</code>" for verb in verbs)} <code>{escape(path)}</code>
 <a class="action" href="/#{escape(path[3:])}">Try it</a></p>
 {prose(post["description"])}
-<h2 id="theory">Theory</h2><p>{escape(answered[0].get("meta", {}).get("theory", ""))}</p>
-<h2 id="request">Request</h2>{self.groups(schema)}{self.table(schema, "Fields of the request", "default", "needed")}
-<h2 id="example">Worked example</h2><p>{escape(title)}. The tests post it and hold the answer against independent values.</p>
+<h2 id="theory">Theory</h2>{prose(post["x-theory"])}
+<p>Every answer names what it used in <code>meta.theory</code>; the one below: {escape(answered[0].get("meta", {}).get("theory", ""))}.</p>
+<h2 id="request">Request</h2>{self.groups(schema)}{self.table(schema, "Fields of the request", "default", "needed", True)}
+<h2 id="example">Worked example</h2><p>{escape(example["summary"])}.</p>
 <pre tabindex="0"><code class="curl">curl -s --json '{escape(body, quote=False)}' {HOST}{escape(path)}</code></pre>
+<p>The tests send it and hold the answer against these values: {escape(example["description"])}.</p>
+<div class="wide" tabindex="0" role="region" aria-label="Expected values"><table class="expected"><thead><tr><th scope="col">in the answer</th>
+<th scope="col">expected</th></tr></thead><tbody>{expected}</tbody></table></div>
 <details><summary>The whole answer</summary>
 <pre tabindex="0"><code>{escape(json.dumps(answered[0], indent=2), quote=False)}</code></pre></details>
 <h2 id="answer">Answer</h2><p>Around it <code>request</code>, <code>warnings</code> and <code>meta</code>.</p>

@@ -33,13 +33,18 @@ function frame(name, schema, input, extra = []) {
   const needed = h('span', { class: 'needed', hidden: true }, 'needed');
   input.setAttribute('aria-describedby', `${help.id} ${fault.id}`);
   input.name = name;
+  let need = false;
+  const follow = () => { needed.hidden = !need || input.value !== ''; };
+  input.addEventListener('input', follow);
   const node = h('div', { class: 'field', 'data-field': name },
     h('label', { for: id }, label(name, schema['x-unit']), unit && h('span', { class: 'unit' }, ` ${unit}`), ' ', needed),
     input, ...extra, help, fault);
   return {
     node,
+    follow,
     need(is) {
-      needed.hidden = !is;
+      need = is;
+      follow();
       input.setAttribute('aria-required', String(is));
     },
     say(text) {
@@ -51,11 +56,18 @@ function frame(name, schema, input, extra = []) {
   };
 }
 
+/* What stands where nothing is given: the default, or else what could. */
+function placeholderOf(schema, show) {
+  if (schema.default !== undefined) return String(schema.default);
+  return schema.examples?.length ? `e.g. ${show(schema.examples[0])}` : '';
+}
+
 function textControl(name, schema, changed, { read, show, numeric }) {
   const input = h('input', { id: freshId('f'), type: 'text', autocomplete: 'off', spellcheck: 'false', inputmode: numeric ? 'decimal' : undefined,
-    placeholder: schema.default !== undefined ? String(schema.default) : '' });
+    placeholder: placeholderOf(schema, show) });
   const slider = numeric ? makeSlider(schema, label(name, schema['x-unit']), () => readNumber(input.value) ?? schema.default, (value) => {
     input.value = String(value);
+    around.follow();
     changed();
   }) : null;
   const around = frame(name, schema, input, slider ? [slider.node] : []);
@@ -70,6 +82,7 @@ function textControl(name, schema, changed, { read, show, numeric }) {
     set(value) {
       input.value = value === undefined ? '' : show(value);
       slider?.follow();
+      around.follow();
     },
     fault(tokens, text) {
       around.say(text);
@@ -136,7 +149,7 @@ function makeControl(name, schema, changed) {
   if (schema.allOf) return nestedControl(name, schema, changed);
   if (schema.type === 'array') {
     const items = schema.items;
-    if (items.discriminator || items.type === 'object') return makeList(name, schema, changed, makeObject);
+    if (items.oneOf?.[0].properties || items.type === 'object') return makeList(name, schema, changed, makeObject);
     const complex = Boolean(items.oneOf);
     const [read, show] = complex ? [readComplex, showComplex] : [readNumber, String];
     return textControl(name, schema, changed, { read: (text) => readList(text, read), show: (list) => list.map(show).join(', ') });
@@ -159,7 +172,7 @@ function alternativeWords(title, fields) {
 
 /* "One of these groups": a choice, and the fields of the group chosen. */
 function makeGroups(group, fields, controls, claimed, changed) {
-  const own = new Set(group.oneOf.flatMap((one) => [...Object.keys(one.properties ?? {}), ...one.title.match(/[A-Za-z_]\w*/g)
+  const own = new Set(group.oneOf.flatMap((one) => [...Object.keys(one.properties ?? {}).filter((name) => !one.properties[name]), ...one.title.match(/[A-Za-z_]\w*/g)
     .filter((name) => name in fields && !one.title.includes(`+${name}`))]));
   const ways = group.oneOf.map((one) => ({
     words: one.title === 'none' ? 'none' : alternativeWords(one.title, fields),
@@ -201,7 +214,7 @@ function makeGroups(group, fields, controls, claimed, changed) {
   };
 }
 
-/* An object: groups first, then what has to be given, and the rest folded away. */
+/* An object: groups first, then what has to be given or is, and the rest folded away. */
 export function makeObject(schema, changed) {
   const fields = Object.fromEntries(Object.entries(schema.properties).filter(([, field]) => field.const === undefined));
   const constants = Object.fromEntries(Object.entries(schema.properties).filter(([, field]) => field.const !== undefined)
@@ -214,11 +227,18 @@ export function makeObject(schema, changed) {
   const folds = (name) => !claimed.has(name) && !required.has(name) && !['modes', 'components'].includes(name);
   const shown = Object.keys(fields).filter((name) => !claimed.has(name) && !folds(name));
   const folded = Object.keys(fields).filter(folds);
-  const details = h('details', { class: 'more' }, h('summary', {}, `More: ${folded.map((name) => label(name, fields[name]['x-unit'])).join(', ')}`),
-    folded.map((name) => controls[name].node));
+  const summary = h('summary', {});
+  const details = h('details', { class: 'more' }, summary);
+  const fold = (names) => {
+    summary.textContent = `More: ${names.map((name) => label(name, fields[name]['x-unit'])).join(', ')}`;
+    details.append(...names.map((name) => controls[name].node));
+    details.hidden = !names.length;
+  };
+  fold(folded);
+  const open = h('div', {});
   const plainFault = h('p', { class: 'fault', role: 'alert', hidden: true });
   const node = h('div', { class: 'object' }, plainFault, groups.map((group) => group.node), shown.map((name) => controls[name].node),
-    folded.length > 0 && details);
+    open, details);
   const get = () => {
     const absent = new Set(groups.flatMap((group) => group.absent()));
     const value = { ...constants };
@@ -232,7 +252,7 @@ export function makeObject(schema, changed) {
   function mark() {
     const needed = new Set(groups.flatMap((group) => group.needs()));
     for (const name of [...shown, ...folded]) controls[name].need?.(required.has(name) || needed.has(name));
-    if (folded.some((name) => needed.has(name) || controls[name].get() !== undefined)) details.open = true;
+    if (folded.some((name) => needed.has(name) && details.contains(controls[name].node))) details.open = true;
   }
   function update() {
     mark();
@@ -244,6 +264,8 @@ export function makeObject(schema, changed) {
     get,
     set(value) {
       for (const name of Object.keys(fields)) controls[name].set(value[name]);
+      fold(folded.filter((name) => value[name] === undefined));
+      open.append(...folded.filter((name) => value[name] !== undefined).map((name) => controls[name].node));
       groups.forEach((group) => group.choose(value));
       details.open = false;
       mark();

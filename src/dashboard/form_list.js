@@ -4,7 +4,7 @@ import { freshId, h } from './dom.js';
 import { label } from './values.js';
 
 export function makeList(name, schema, changed, makeObject) {
-  const shapes = schema.items.discriminator
+  const shapes = schema.items.oneOf
     ? schema.items.oneOf.map((one) => ({ word: one.title, schema: one }))
     : [{ word: label(name).replace(/s$/, ''), schema: schema.items }];
   let items = [];

@@ -71,6 +71,7 @@ static void describe_complex(const field *f, json_writer *json)
     json_close_array(json);
 }
 
+/* Told apart by the constant `type` of each: OpenAPI's discriminator wants named schemas. */
 static void describe_variants(const field *f, bool variables, json_writer *json)
 {
     json_open_object(json);
@@ -79,10 +80,6 @@ static void describe_variants(const field *f, bool variables, json_writer *json)
     for (const variant *v = f->variants; v->type != NULL; v++)
         describe_object(v->schema, v, variables, json);
     json_close_array(json);
-    json_key(json, "discriminator");
-    json_open_object(json);
-    json_put_string(json, "propertyName", "type");
-    json_close_object(json);
     json_close_object(json);
 }
 
@@ -204,12 +201,12 @@ static void describe_alternative(const schema *s, const char *title, field_set r
     json_open_object(json);
     json_put_string(json, "title", title);
     describe_required(s, required, NULL, json);
-    if (absent != 0) {
+    if ((absent | required) != 0) {
         json_key(json, "properties");
         json_open_object(json);
         for (int row = 0; s->fields[row].kind != FIELD_END; row++)
-            if (absent & row_bit(row))
-                json_put_flag(json, s->fields[row].name, false);
+            if ((absent | required) & row_bit(row))
+                json_put_flag(json, s->fields[row].name, (required & row_bit(row)) != 0);
         json_close_object(json);
     }
     if (some != 0) {

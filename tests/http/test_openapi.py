@@ -138,6 +138,40 @@ def test_the_contract_is_whole():
             assert f"#/components/{kind}/{name}" in used, f"{kind}/{name} is not used"
 
 
+def fields_of(schema, place=""):
+    """Every field of a request, those of nested objects and lists too, with its place."""
+    for part in schema.get("allOf", []) + schema.get("oneOf", []) + ([schema["items"]] if "items" in schema else []):
+        yield from fields_of(part, place)
+    for name, field in schema.get("properties", {}).items():
+        if isinstance(field, dict) and "const" not in field:
+            yield f"{place}/{name}", field
+            yield from fields_of(field, f"{place}/{name}")
+
+
+REQUESTS = {name: schema for name, schema in CONTRACT["components"]["schemas"].items() if name.endswith("_request")}
+# what these stand for says which unit and range they have
+ANY_NUMBER = ("variable", "scale", "offset", "re", "im", "min", "max")
+
+
+@pytest.mark.parametrize("name", REQUESTS)
+def test_every_field_has_unit_range_and_example(name):
+    fields = list(fields_of(REQUESTS[name]))
+    assert fields
+    for place, field in fields:
+        assert field["description"], place
+        example, = field["examples"]
+        assert not faults(field, example), place
+        if "default" in field:
+            assert not faults(field, field["default"]), place
+        numbers = [one for one in [field, *field.get("oneOf", []), field.get("items", {})] if one.get("type") in ("number", "integer")]
+        if not numbers or place.split("/")[-1] in ANY_NUMBER:
+            continue
+        if numbers[0].get("type") == "number" and field.get("type") != "array":
+            assert field["x-unit"], place
+        for one in numbers:
+            assert {"minimum", "exclusiveMinimum"} & set(one) and {"maximum", "exclusiveMaximum"} & set(one), place
+
+
 def test_the_judge_refuses_what_is_wrong():
     """A judge that takes everything would pass every test below."""
     example = next(load(e) for e in EXAMPLES if "catenary_frequencies" in str(e))

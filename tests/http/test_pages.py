@@ -2,9 +2,11 @@
 """The files of the dashboard: what they are, how they are sent. What they do is for tests/browser."""
 import gzip
 import hashlib
+import html
 import json
 import pathlib
 import re
+import subprocess
 
 import pytest
 import yaml
@@ -46,6 +48,22 @@ def test_pages_ask_nobody_else(strumd, path):
     assert again.status_code == 304 and not again.content
     head = strumd.request("HEAD", path)
     assert head.status_code == 200 and not head.content
+
+
+PAGES = [f"/docs/{path[4:].replace('/', '-')}" for path, item in CONTRACT["paths"].items() if "x-query" in item]
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_the_worked_example_of_a_page_runs(strumd, path):
+    """The curl line as it stands gives the answer that stands below it; test_openapi.py holds both against values from elsewhere."""
+    text = strumd.get(path).text
+    line = html.unescape(re.search(r'<code class="curl">(.*?)</code>', text, re.S)[1])
+    assert line.count("http://127.0.0.1:8080") == 1
+    done = subprocess.run(line.replace("http://127.0.0.1:8080", strumd.url), shell=True, check=True, capture_output=True, timeout=300)
+    shown = json.loads(html.unescape(re.search(r"The whole answer</summary>\s*<pre[^>]*><code>(.*?)</code>", text, re.S)[1]))
+    live = json.loads(done.stdout)
+    assert live["request"] == shown["request"] and list(live) == list(shown) and list(live["result"]) == list(shown["result"])
+    assert text.count("<tr><th") > 5 and re.search(r'id="theory">Theory</h2><p>.*?<li>', text, re.S)
 
 
 def test_what_is_not_there(strumd):

@@ -76,7 +76,7 @@ def members(rng, schema):
             optional = [w.strip("[]+") for w in one["title"].split() if w.strip("[]+") in properties]
             chosen |= {n for n in one.get("required", []) if rng.random() > rng.wrong}
             chosen |= {n for n in optional if rng.random() < 0.3}
-    grouped = {n for g in schema.get("allOf", []) for o in g["oneOf"] for n in o.get("properties", {})}
+    grouped = {n for g in schema.get("allOf", []) for o in g["oneOf"] for n, allowed in o.get("properties", {}).items() if not allowed}
     chosen |= {n for n in properties if n not in grouped and rng.random() < 0.3}
     chosen |= {n for n in sorted(grouped) if rng.random() < rng.wrong}
     value = {n: document(rng, properties[n]) for n in sorted(chosen)}
