@@ -35,6 +35,7 @@ export function makeBench(endpoint, first, keptFirst) {
   const warnings = h('div', { class: 'warnings', hidden: true });
   const headline = h('div', { class: 'headline' });
   const cite = h('div', { class: 'cite' });
+  const hint = h('p', { class: 'note', hidden: true });
   const keeping = h('div', { class: 'kept' });
   const tables = h('div', { class: 'tables' });
   const node = h('div', { class: 'panels' },
@@ -45,7 +46,7 @@ export function makeBench(endpoint, first, keptFirst) {
     h('p', { class: 'note' }, h('a', { href: `/docs/${endpoint.name}` }, 'Reference'), ' \u00b7 ', h('code', {}, endpoint.path)),
     h('div', { class: 'field preset' }, h('label', { for: preset.id }, 'start from'), preset), form.node),
     h('section', { id: 'answer', class: 'answer', 'aria-label': 'Answer', tabindex: '-1' }, h('div', { class: 'top' }, status, busy),
-      trouble, headline, cite, keeping, warnings, figures.place, tables));
+      trouble, headline, cite, keeping, warnings, hint, figures.place, tables));
 
   function load(request) {
     if (!request) return;
@@ -110,6 +111,8 @@ export function makeBench(endpoint, first, keptFirst) {
     warnings.replaceChildren(...answer.warnings.map((warning) => h('p', {}, warning)));
     headline.replaceChildren(...pictures.headline(answer).map((one) => h('div', { class: 'figure-of' },
       h('span', { class: 'what' }, one.label), h('span', { class: 'value' }, brief(one.value, 6), h('span', { class: 'unit' }, ` ${one.unit}`)), h('span', { class: 'more-of' }, one.more ?? ''))));
+    hint.textContent = pictures.hint?.(answer) ?? '';
+    hint.hidden = !hint.textContent;
     figures.show(pictures.pictures(answer, kept, null), false);
     clearTimeout(settle);
     settle = setTimeout(() => complete(request, answer), 90);
@@ -120,7 +123,7 @@ export function makeBench(endpoint, first, keptFirst) {
     const mine = controller;
     showCite();
     history.replaceState(null, '', stateLink(endpoint.path, request, kept));
-    tables.replaceChildren(h('h2', {}, 'All numbers'), ...tablesOf('result', pictures.tables?.(answer.result) ?? answer.result),
+    tables.replaceChildren(h('h2', {}, 'All numbers'), ...tablesOf('result', pictures.tables?.(answer.result) ?? answer.result, { opens: pictures.opens, load }),
       h('details', {}, h('summary', {}, 'The request as it was understood'), h('pre', { tabindex: '0' }, JSON.stringify(answer.request, null, 2))));
     const more = pictures.companion?.(request, answer);
     let companion = null;

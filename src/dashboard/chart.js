@@ -29,7 +29,7 @@ function drawMarks(chart) {
     ctx.font = `${11 * ratio}px sans-serif`;
     ctx.textAlign = 'left';
     ctx.setLineDash([3 * ratio, 4 * ratio]);
-    let free = -Infinity;
+    const free = [-Infinity, -Infinity, -Infinity];
     for (const mark of chart.marks ?? []) {
       const x = plot.valToPos(mark.x, 'x', true);
       if (x < bbox.left || x > bbox.left + bbox.width) continue;
@@ -38,10 +38,12 @@ function drawMarks(chart) {
       ctx.lineTo(x, bbox.top + bbox.height);
       ctx.stroke();
       const width = ctx.measureText(mark.label).width;
-      if (x + 3 * ratio > free && x + width < bbox.left + bbox.width) {
-        ctx.fillText(mark.label, x + 3 * ratio, bbox.top + 11 * ratio);
-        free = x + width + 8 * ratio;
-      }
+      /* Right of its line, or left of it where the sheet ends; on the first row that is free. */
+      const begin = x + width > bbox.left + bbox.width ? x - width - 3 * ratio : x + 3 * ratio;
+      const row = free.findIndex((end) => begin > end);
+      if (row < 0) continue;
+      ctx.fillText(mark.label, begin, bbox.top + (11 + 13 * row) * ratio);
+      free[row] = begin + width + 5 * ratio;
     }
     ctx.restore();
   };

@@ -3,7 +3,8 @@
  * displacements of the largest value 1 in units of the drawing's size, rate}], marks(mode) -> [{x, y, kind, label}], supports, hang}. */
 import { colour, download, h } from './dom.js';
 import { chartCsv, chartSvg } from './svg.js';
-import { extent } from './scale.js';
+import { extent, ticks } from './scale.js';
+import { brief } from './values.js';
 
 const HEIGHT = 320;
 const MARGIN = 34;
@@ -42,7 +43,38 @@ function polyline(pen, points, to) {
   pen.stroke();
 }
 
-function mark(pen, place, to, ratio) {
+/* A word beside a point: above or below it, where no other stands; left out where there is no room. */
+function word(pen, text, x, y, taken, ratio) {
+  pen.font = `${11 * ratio}px sans-serif`;
+  const half = pen.measureText(text).width / 2;
+  const left = Math.min(Math.max(x - half, 0), pen.canvas.width - 2 * half);
+  const rows = [-10, 20, -24, 34].map((row) => y + row * ratio);
+  const clear = (base) => taken.every((other) => Math.abs(other.base - base) > 12 * ratio || other.right < left || other.left > left + 2 * half);
+  const base = rows.find(clear);
+  if (base === undefined) return;
+  taken.push({ base, left: left - 4 * ratio, right: left + 2 * half + 4 * ratio });
+  pen.fillStyle = colour('soft');
+  pen.fillText(text, left, base);
+}
+
+/* How long the sheet is, by a bar of a round length. */
+function measure(pen, unit, words, ratio) {
+  const long = ticks([0, (pen.canvas.width / unit) * 0.3], 4).at(-1);
+  const [x, y] = [10 * ratio, pen.canvas.height - 8 * ratio];
+  pen.strokeStyle = colour('soft');
+  pen.fillStyle = colour('soft');
+  pen.lineWidth = ratio;
+  pen.beginPath();
+  pen.moveTo(x, y - 4 * ratio);
+  pen.lineTo(x, y);
+  pen.lineTo(x + long * unit, y);
+  pen.lineTo(x + long * unit, y - 4 * ratio);
+  pen.stroke();
+  pen.font = `${11 * ratio}px sans-serif`;
+  pen.fillText(`${brief(long)} ${words}`, x + 5 * ratio, y - 5 * ratio);
+}
+
+function mark(pen, place, to, taken, ratio) {
   const [x, y] = to(place);
   pen.beginPath();
   if (place.kind === 'mass') {
@@ -61,11 +93,7 @@ function mark(pen, place, to, ratio) {
     pen.lineTo(x - 5 * ratio, y);
     pen.fill();
   }
-  if (place.label) {
-    pen.fillStyle = colour('soft');
-    pen.font = `${11 * ratio}px sans-serif`;
-    pen.fillText(place.label, x + 7 * ratio, y - 7 * ratio);
-  }
+  if (place.label) word(pen, place.label, x, y, taken, ratio);
 }
 
 function paint(canvas, drawing, mode, phase, reach) {
@@ -94,7 +122,9 @@ function paint(canvas, drawing, mode, phase, reach) {
     pen.fillStyle = colour('ink');
     pen.fillRect(x - 4 * ratio, y - 4 * ratio, 8 * ratio, 8 * ratio);
   }
-  for (const place of drawing.marks?.(mode, now) ?? []) mark(pen, place, to, ratio);
+  const taken = [];
+  for (const place of drawing.marks?.(mode, now) ?? []) mark(pen, place, to, taken, ratio);
+  measure(pen, unit, drawing.unit.replace(/^in /, ''), ratio);
 }
 
 /* A figure with the choice of a mode, pace, size, and its exports. It stands still where the reader wants less motion. */

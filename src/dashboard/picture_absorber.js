@@ -13,6 +13,14 @@ function branches(answer, key, label, title) {
   }).filter((one) => one.x.length);
   if (!series.length) return null;
   const best = result.optimum?.[variable];
+  const span = [Math.min(...series.flatMap((one) => one.x)), Math.max(...series.flatMap((one) => one.x))];
+  if (best !== undefined) {
+    const there = (result.limiting_modes ?? []).filter((mode) => mode[key] !== undefined);
+    series.push({ label: 'optimum', x: there.map(() => best), y: there.map((mode) => mode[key]), pointsOnly: true, colour: 4 });
+  }
+  if (key === 'damping_ratio' && result.required_damping_ratio !== undefined) {
+    series.push({ label: 'required', x: span, y: span.map(() => result.required_damping_ratio), dash: true, colour: 5 });
+  }
   const positive = series.every((one) => one.x.every((x) => x > 0));
   const wide = positive && Math.max(...series.flatMap((one) => one.x)) > 50 * Math.min(...series.flatMap((one) => one.x));
   return { kind: 'chart', key, name: `sweep-${key}`, title, x: { label: variable, log: wide }, y: { label, min: key === 'damping_ratio' ? 0 : undefined }, series,
@@ -21,6 +29,7 @@ function branches(answer, key, label, title) {
 
 export const absorber = {
   slow: true,
+  hint: ({ result }) => (result.sweep ? '' : 'A sweep over one of the variables draws every branch of damping, with the optimum on it.'),
   headline: ({ result }) => [
     { label: 'damping ratio at the optimum', value: result.damping_ratio, unit: '', more: Object.entries(result.optimum ?? {}).map(([name, value]) => `${name} = ${brief(value)}`).join(', ') },
     result.required_damping_ratio !== undefined && { label: 'required against vortex-induced vibration', value: result.required_damping_ratio, unit: '', more: result.met ? 'met' : 'not met' },

@@ -62,10 +62,14 @@ const sweep = {
           x: some.map(({ request }) => request.sag_parameter), y: some.map(({ answer: one }) => one.result[plane][k].frequency_ratio) });
       }
     }
+    /* Towards a taut cable all ratios grow without bound: the sheet ends where most of it would be empty, or above this cable. */
+    const here = [...(answer.result.in_plane ?? []), ...(answer.result.out_of_plane ?? [])].map((mode) => mode.frequency_ratio);
+    const beside = series.flatMap((one) => one.y.filter((y, i) => one.x[i] <= 0.955));
+    const top = 1.1 * Math.max(...here.slice(0, 6), ...beside);
     const figure = FIGURES[Math.abs(geometry.rise_to_span)];
     return {
       kind: 'chart', key: 'sag', name: 'frequency-against-sag', title: 'Natural frequency against sag',
-      x: { label: 'sag parameter b/\u221a(l\u00b2 \u2212 h\u00b2): deep to taut', min: 0, max: 1 }, y: { label: 'frequency ratio \u03c9/\u221a(g/a)', min: 0 }, series,
+      x: { label: 'sag parameter b/\u221a(l\u00b2 \u2212 h\u00b2): deep to taut', min: 0, max: 1 }, y: { label: 'frequency ratio \u03c9/\u221a(g/a)', min: 0, max: top }, series,
       marks: [{ x: sagParameter(geometry), label: 'this cable' }],
       note: `Inextensible and undamped, h/b = ${brief(geometry.rise_to_span)}${figure ? ` (Gale, Figures ${figure.join(' and ')})` : ''}; in-plane lines are whole, out-of-plane ones dashed.`,
     };

@@ -22,7 +22,7 @@ function motion(answer) {
 function tension(answer) {
   const shaped = answer.result.modes.filter((mode) => mode.shape);
   if (!shaped.length) return null;
-  return { kind: 'chart', key: 'tension', name: 'dynamic-tension', title: 'Dynamic tension along the cable', x: { label: 's/L from the lower end' }, y: { label: 'tension' },
+  return { kind: 'chart', key: 'tension', name: 'dynamic-tension', title: 'Dynamic tension along the cable', x: { label: 's/L from the lower end' }, y: { label: 'tension in T\u2090' }, note: 'For a displacement of L: a hundredth of L makes a hundredth of it.',
     series: shaped.slice(0, 6).map((mode) => ({ label: `mode ${mode.mode}`, x: mode.shape.map(({ s }) => s), y: mode.shape.map((point) => point.tension) })) };
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Taut chains: the chain with what hangs on it, its motion with nodes and antinodes, roots in the complex plane. */
-import { atPhase, compareModes } from './picture_parts.js';
+import { atPhase, compareModes, magnitude } from './picture_parts.js';
 import { brief } from './values.js';
 
 const LENGTHS = { sphere: 'diameter_m', cone: 'height_m' };
@@ -66,12 +66,13 @@ export const taut = {
 
 export const matrix = {
   headline: () => [],
+  hint: ({ result }) => (result.matrices.filter((one) => one.angular_frequency.im === 0).length < 2
+    ? 'Several real frequencies make a curve of t\u2081\u2082, whose zeros are the natural frequencies.' : ''),
   pictures(answer) {
-    const rows = answer.result.matrices.filter((one) => typeof one.angular_frequency === 'number');
+    const rows = answer.result.matrices.filter((one) => one.angular_frequency.im === 0);
     if (rows.length < 2) return [];
-    const size = (entry) => (typeof entry === 'number' ? Math.abs(entry) : Math.hypot(entry.re, entry.im));
     return [{ kind: 'chart', key: 't12', name: 't12', title: 'Size of t\u2081\u2082 of the chain', x: { label: 'angular frequency, rad/s' }, y: { label: '|t\u2081\u2082|, m/N', log: true },
-      series: [{ label: '|t\u2081\u2082|', x: rows.map((one) => one.angular_frequency), y: rows.map((one) => size(one.chain[1])), points: rows.length < 60 }],
+      series: [{ label: '|t\u2081\u2082|', x: rows.map((one) => one.angular_frequency.re), y: rows.map((one) => magnitude(one.chain[1])), points: rows.length < 60 }],
       note: 'Its zeros are the natural frequencies of the chain between fixed ends (Levesque, Figure 3-2).' }];
   },
   sweeps: [],

@@ -44,10 +44,10 @@ const presets = {
       angular_frequencies: Array.from({ length: 240 }, (_, i) => Number((0.25 * (i + 1)).toFixed(2))) }],
   ],
   '/v1/validation': [
-    ['Levesque, the printed values', { report: 'levesque', family: 'levesque', values: true }],
     ['Gale, Table B-3, every value', { family: 'gale_table_B_3', values: true }],
+    ['Levesque, the printed values', { report: 'levesque', family: 'levesque', values: true }],
     ['Sergev and Iwan', { report: 'sergev_iwan', values: true }],
-    ['All reports, every case', {}],
+    ['All reports, every case (takes seconds)', {}],
   ],
   '/v1/absorber/optimize': [
     ['Hanging absorber at mid-span: the best damping for a band', { tension_N: 5000, components: [segment(25), hanging(68.45, { variable: 'R' }), segment(25)],

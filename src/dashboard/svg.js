@@ -73,9 +73,14 @@ export function chartSvg(chart) {
     `<title>${escape(chart.title)}</title><rect width="${WIDTH}" height="${HEIGHT}" fill="#fff"/>`,
     text(BOX.left, 22, chart.title, 'style="font-size:16px;font-weight:600"'), grid(chart, at),
     `<clipPath id="c"><rect x="${BOX.left}" y="${BOX.top}" width="${WIDTH - BOX.left - BOX.right}" height="${HEIGHT - BOX.top - BOX.bottom}"/></clipPath>`];
+  const free = [-Infinity, -Infinity, -Infinity];
   for (const mark of chart.marks ?? []) {
+    const width = 5.6 * String(mark.label).length;
+    const begin = at.x(mark.x) + width > WIDTH - BOX.right ? at.x(mark.x) - width - 3 : at.x(mark.x) + 3;
+    const row = Math.max(0, free.findIndex((end) => begin > end));
+    free[row] = begin + width + 5;
     out.push(`<path d="M${at.x(mark.x).toFixed(1)} ${BOX.top}V${HEIGHT - BOX.bottom}" stroke="#a52019" stroke-dasharray="3 4" fill="none"/>`,
-      text(at.x(mark.x) + 3, BOX.top + 12, mark.label, 'style="font-size:10px;fill:#a52019"'));
+      text(begin, BOX.top + 12 + 12 * row, mark.label, 'style="font-size:10px;fill:#a52019"'));
   }
   let legend = BOX.left;
   chart.series.forEach((one, i) => {
@@ -89,9 +94,10 @@ export function chartSvg(chart) {
         if (Number.isFinite(left) && Number.isFinite(top)) out.push(`<circle cx="${left.toFixed(1)}" cy="${top.toFixed(1)}" r="3.2" fill="${colour}" clip-path="url(#c)"/>`);
       });
     }
-    if (legend < WIDTH - 120) {
+    const width = 30 + 6.6 * one.label.length;
+    if (legend + width < WIDTH) {
       out.push(`<path d="M${legend} 38h18" stroke="${colour}" stroke-width="3"/>`, text(legend + 23, 42, one.label));
-      legend += 40 + 7.2 * one.label.length;
+      legend += width;
     }
   });
   out.push('</svg>');

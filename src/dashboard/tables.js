@@ -30,7 +30,13 @@ function columnsOf(list) {
   return [...names].filter((name) => !list.some((row) => Array.isArray(row[name]) && row[name].some(isRecord)));
 }
 
-function listTable(name, list) {
+/* What a cell shows; where `opens` has a question for it, a button that asks it. */
+function cell(column, row, { opens, load }) {
+  const question = opens?.(column, row);
+  return question ? h('button', { type: 'button', onclick: () => load(question) }, words(row[column])) : words(row[column]);
+}
+
+function listTable(name, list, doors) {
   const columns = columnsOf(list);
   const csv = () => `${columns.join(',')}\r\n${list.map((row) => columns.map((column) => raw(row[column])).join(',')).join('\r\n')}\r\n`;
   const left = list.length > ROWS ? h('p', { class: 'note' }, `${list.length - ROWS} more rows are in the CSV and the JSON.`) : null;
@@ -39,7 +45,7 @@ function listTable(name, list) {
       h('caption', {}, heading(name)),
       h('thead', {}, h('tr', {}, columns.map((column) => h('th', { scope: 'col', class: list.every((row) => typeof (row[column] ?? 0) === 'number') ? 'number' : undefined }, heading(column))))),
       h('tbody', {}, list.slice(0, ROWS).map((row) => h('tr', {}, columns.map((column) =>
-        h('td', { class: typeof row[column] === 'number' ? 'number' : undefined, title: typeof row[column] === 'number' ? String(row[column]) : undefined }, words(row[column])))))))),
+        h('td', { class: typeof row[column] === 'number' ? 'number' : String(row[column] ?? '').length > 60 ? 'long' : undefined, title: typeof row[column] === 'number' ? String(row[column]) : undefined }, cell(column, row, doors)))))))),
     left,
     h('div', { class: 'exports' }, h('button', { type: 'button', 'aria-label': `${heading(name)}: save as CSV`, onclick: () => download(`${name}.csv`, 'text/csv', csv()) }, 'CSV')));
 }
@@ -51,8 +57,8 @@ function recordTable(name, record) {
     h('tr', {}, h('th', { scope: 'row' }, heading(key)), h('td', { class: typeof value === 'string' ? undefined : typeof value === 'number' ? 'number' : 'list', title: words(value) === String(value) ? undefined : JSON.stringify(value) }, words(value))))));
 }
 
-/* All tables of a value, deepest last. */
-export function tablesOf(name, value, depth = 0) {
+/* All tables of a value, deepest last. `doors` = {opens(column, row) -> a question or null, load(question)}. */
+export function tablesOf(name, value, doors = {}) {
   if (Array.isArray(value)) {
     if (!value.length) return [h('p', { class: 'note' }, `${heading(name)}: none`)];
     if (!value.every(isRecord)) return value.every(isFlat) ? [recordTable(name, { [name]: value })] : [];
@@ -61,19 +67,19 @@ export function tablesOf(name, value, depth = 0) {
       for (const [key, list] of Object.entries(row)) {
         if (!Array.isArray(list) || !list.length || !list.every(isRecord)) continue;
         inner.push(h('details', { ontoggle: (event) => {
-          if (event.target.open && event.target.children.length === 1) event.target.append(...tablesOf(key, list, depth + 1));
+          if (event.target.open && event.target.children.length === 1) event.target.append(...tablesOf(key, list, doors));
         } }, h('summary', {}, `${heading(name)} ${row.mode ?? i + 1}: ${heading(key)}, ${list.length} rows`)));
       }
     }
-    if (value.length <= OPEN_ROWS) return [listTable(name, value), ...inner];
+    if (value.length <= OPEN_ROWS) return [listTable(name, value, doors), ...inner];
     return [h('details', { ontoggle: (event) => {
-      if (event.target.open && event.target.children.length === 1) event.target.append(listTable(name, value));
+      if (event.target.open && event.target.children.length === 1) event.target.append(listTable(name, value, doors));
     } }, h('summary', {}, `${heading(name)}, ${value.length} rows`)), ...inner];
   }
   if (!isRecord(value)) return [];
   const out = [recordTable(name, value)];
   for (const [key, inner] of Object.entries(value)) {
-    if (isRecord(inner) || (Array.isArray(inner) && !inner.every(isFlat))) out.push(...tablesOf(key, inner, depth + 1));
+    if (isRecord(inner) || (Array.isArray(inner) && !inner.every(isFlat))) out.push(...tablesOf(key, inner, doors));
     else if (Array.isArray(inner) && !inner.length) out.push(h('p', { class: 'note' }, `${heading(key)}: none`));
   }
   return out.filter(Boolean);

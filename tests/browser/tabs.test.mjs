@@ -19,6 +19,9 @@ const FIGURES = {
   '/v1/forced/tension': ['curve', 'motion', 'profiles'],
   '/v1/inclined/modes': ['motion', 'crossover', 'hybrid', 'amplification', 'compare'],
   '/v1/taut/modes': ['motion', 'compare'],
+  '/v1/taut/matrix': ['t12'],
+  '/v1/absorber/optimize': ['damping_ratio', 'angular_frequency_rad_per_s'],
+  '/v1/validation': ['margin'],
 };
 
 test('every endpoint of the contract has a tab', async () => {

@@ -57,6 +57,79 @@ test('a faulty field is explained where it stands', async () => {
   bed.noFaults();
 });
 
+test('only what is missing is called needed', async () => {
+  const page = await bed.open('/');
+  await settled(page);
+  assert.equal(await page.locator('.needed:visible').count(), 0);
+  await field(page, 'span_m').fill('');
+  assert.equal(await page.locator('[data-field="span_m"] .needed').isVisible(), true);
+  assert.equal(await field(page, 'span_m').getAttribute('placeholder'), 'e.g. 100');
+  await page.close();
+  bed.noFaults();
+});
+
+test('what a question gives stands open, the rest is folded away', async () => {
+  const page = await bed.open('/');
+  await settled(page);
+  assert.equal(await field(page, 'mass_kg_per_m').isVisible(), true);
+  assert.equal(await field(page, 'weight_N_per_m').isVisible(), false);
+  await page.getByText(/^More: /).click();
+  assert.equal(await field(page, 'weight_N_per_m').isVisible(), true);
+  await page.close();
+  bed.noFaults();
+});
+
+test('the branches of a sweep bear their optimum, and without one the page says what would', async () => {
+  const page = await bed.open('/#/absorber/optimize');
+  await settled(page);
+  const figure = page.locator('[data-figure="damping_ratio"]');
+  const csv = await saved(page, () => figure.getByRole('button', { name: 'CSV' }).click());
+  const [head, first] = csv.data.toString().split('\r\n').map((line) => line.split(','));
+  const at = head.indexOf('"optimum: R"');
+  /* Levesque's cable with a hanging absorber: an independent program's optimum, api/examples/absorber_optimize.json. */
+  assert.ok(Math.abs(first[at] / 15.73092312736357 - 1) < 1e-6);
+  const loss = 0.2203533452362748;
+  assert.ok(Math.abs(first[at + 1] / (loss / Math.hypot(1, loss)) - 1) < 1e-8);
+  await page.locator('[data-field="sweep"] [data-field="variable"] input').fill('');
+  await page.locator('[data-field="sweep"] [data-field="points"] input').first().fill('');
+  await page.getByText('A sweep over one of the variables').waitFor();
+  await page.close();
+  bed.noFaults();
+});
+
+test('a family of cases opens from its name, with every value', async () => {
+  const page = await bed.open(`/#/validation?${encodeURIComponent('{"r":{"report":"sergev_iwan"}}')}`);
+  await settled(page);
+  await page.getByRole('button', { name: 'sergev_iwan/table 1' }).click();
+  await page.locator('.tables caption', { hasText: 'values compared' }).or(page.locator('.tables summary', { hasText: 'values compared' })).first().waitFor();
+  assert.equal(await page.locator('[data-field="family"] input').inputValue(), 'sergev_iwan_table_1');
+  await page.close();
+  bed.noFaults();
+});
+
+/* The files of the page, as they come over the wire; the answers that follow are as large as the question. */
+test('the first load is small, and measured', async () => {
+  const page = await bed.context.newPage();
+  const session = await bed.context.newCDPSession(page);
+  await session.send('Network.enable');
+  await session.send('Network.setCacheDisabled', { cacheDisabled: true });
+  const answers = new Set();
+  let bytes = 0;
+  let files = 0;
+  session.on('Network.requestWillBeSent', ({ requestId, request }) => { if (new URL(request.url).pathname.startsWith('/v1/')) answers.add(requestId); });
+  session.on('Network.loadingFinished', ({ requestId, encodedDataLength }) => {
+    if (answers.has(requestId)) return;
+    bytes += encodedDataLength;
+    files += 1;
+  });
+  await page.goto(bed.address);
+  await answered(page);
+  const ms = await page.evaluate(() => performance.now());
+  await page.close();
+  console.log(`first load: ${Math.round(bytes / 1000)} kB in ${files} files, the first answer after ${Math.round(ms)} ms`);
+  assert.ok(files > 20 && bytes < 125e3, `${bytes} bytes in ${files} files`);
+});
+
 test('an impossible cable is explained', async () => {
   const page = await bed.open('/');
   await settled(page);
@@ -90,6 +163,7 @@ test('alternatives show their own fields only, and name what they need elsewhere
   assert.equal(await page.locator('[data-field="sag_parameter"]').isVisible(), true);
   await field(page, 'sag_parameter').fill('0.7');
   await page.locator('.figure-of .value', { hasText: 'g/a' }).first().waitFor();
+  await field(page, 'mass_kg_per_m').fill('');
   await choice.selectOption({ label: 'span, unstretched length' });
   assert.equal(await page.locator('[data-field="mass_kg_per_m"] .needed').isVisible(), true);
   await page.close();
