@@ -106,19 +106,27 @@ static double equilibrium(double log_mu, void *data)
     return left - 0.5 * log1p(right);
 }
 
+/* Least mu: a sag of about 1e-9 of the span. */
+#define MU_LEAST 1e-9
+
+static strum_status refuse_taut(strum_fault *fault)
+{
+    return fault_set(fault, STRUM_ERR_RANGE,
+                     "the cable is too taut: its sag is below 1e-9 of the span");
+}
+
 /* The mu at which `f` of log(mu), rising, passes 0. */
 static strum_status solve_mu(double (*f)(double, void *), void *data, double *mu,
                              strum_fault *fault)
 {
-    double low = log(1e-9), high = log(2 * STRUM_CHI_MAX);
+    double low = log(MU_LEAST), high = log(2 * STRUM_CHI_MAX);
     /* not a number: lengths beyond 1e150 of the span */
     if (!(f(high, data) > 0))
         return fault_set(fault, STRUM_ERR_RANGE,
                          "the cable is too deep: the slope parameter |chi| would exceed %g",
                          STRUM_CHI_MAX);
     if (f(low, data) >= 0)
-        return fault_set(fault, STRUM_ERR_RANGE,
-                         "the cable is too taut: its sag is below 1e-9 of the span");
+        return refuse_taut(fault);
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (solver == NULL)
         return fault_set(fault, STRUM_ERR_MEMORY, "out of memory");
@@ -146,6 +154,8 @@ static strum_status complete(double chi_m, double mu, double weight_strain, stru
                          "the cable is too steep: the slope parameter |chi| of an end is %.3g, "
                          "above %g",
                          fabs(chi_m) + mu, STRUM_CHI_MAX);
+    if (!(mu >= MU_LEAST))
+        return refuse_taut(fault);
     const double half = weight_strain / 2;
     const double unstretched = 2 * cosh(chi_m) * sinh(mu);
     const double kappa = weight_strain / unstretched;

@@ -27,8 +27,15 @@ static strum_status find_catenary(const schema *s, const cable_input *in, strum_
                                   const char **pointer, strum_fault *fault)
 {
     if (field_given(s, in, "sag_parameter")) {
-        *pointer = "/rise_to_span";
-        return strum_catenary_from_sag(in->rise_to_span, in->sag_parameter, c, fault);
+        const strum_status status =
+            strum_catenary_from_sag(in->rise_to_span, in->sag_parameter, c, fault);
+        /* the rise decides where the same cable would be good between level supports */
+        strum_catenary level;
+        *pointer = status != STRUM_OK && strum_catenary_from_sag(0, in->sag_parameter, &level,
+                                                                 NULL) == STRUM_OK
+                       ? "/rise_to_span"
+                       : "/sag_parameter";
+        return status;
     }
     if (field_given(s, in, "xi_2")) {
         *pointer = "/xi_2";
@@ -131,10 +138,11 @@ void cable_write_geometry(json_writer *json, const cable_input *in)
                     : in->sag_parameter > 0 ? in->rise_to_span
                                             : c->rise / c->span);
     json_put_number(json, "sag_to_span", sag / c->span);
-    json_put_number(json, "xi_1", strum_xi_of_chi(chi_1));
-    json_put_number(json, "xi_2", strum_xi_of_chi(chi_2));
-    json_put_number(json, "chi_1", chi_1);
-    json_put_number(json, "chi_2", chi_2);
+    const bool by_xi = in->xi_1 < in->xi_2, by_chi = in->chi_1 < in->chi_2;
+    json_put_number(json, "xi_1", by_xi ? in->xi_1 : strum_xi_of_chi(chi_1));
+    json_put_number(json, "xi_2", by_xi ? in->xi_2 : strum_xi_of_chi(chi_2));
+    json_put_number(json, "chi_1", by_chi ? in->chi_1 : chi_1);
+    json_put_number(json, "chi_2", by_chi ? in->chi_2 : chi_2);
     json_put_number(json, "flexibility", in->cable.kappa_t);
     if (in->a_m > 0) {
         json_put_number(json, "a_m", in->a_m);
