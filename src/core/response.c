@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/forced.h"
+#include "core/peak.h"
 
 strum_response *strum_response_make(const strum_forced *f)
 {
@@ -179,46 +180,25 @@ static double refine(const strum_response *r, double low, double high, double _C
     return x;
 }
 
-/* What a maximum beside sample i may reach: the parabola through three samples, which are dense
- * enough for it to be within a few per cent. */
-static double promise(const double *value, int i, int samples)
+static double refine_peak(void *data, double low, double high, double *x)
 {
-    if (i == 0 || i == samples - 1)
-        return value[i] * 1.02;
-    const double left = fabs(value[i - 1]),
-                 right = fabs(value[i + 1]); /* negative where seen */
-    const double bend = 2 * value[i] - left - right, tilt = right - left;
-    return (value[i] + (bend > 0 ? tilt * tilt / (8 * bend) : 0)) * 1.05;
+    double _Complex tension;
+    *x = refine(data, low, high, &tension);
+    return cabs(tension);
 }
 
 void strum_response_peak(const strum_response *r, strum_peak *peak)
 {
     const strum_forced *f = r->forced;
-    const int samples = f->samples;
-    double *value = r->table + 2 * f->size, *im = value + samples;
+    double *value = r->table + 2 * f->size, *im = value + f->samples, x;
     response_sample(r, value, im);
-    for (int i = 0; i < samples; i++)
+    for (int i = 0; i < f->samples; i++)
         value[i] = r->real ? fabs(value[i]) : hypot(value[i], im[i]);
-    *peak = (strum_peak){.chi = f->cable.chi_m - f->cable.mu};
-    /* the most promising first, so that most others need no look */
-    for (;;) {
-        int best = -1;
-        for (int i = 0; i < samples; i++)
-            if (value[i] >= 0 && (i == 0 || fabs(value[i - 1]) <= value[i]) &&
-                (i == samples - 1 || fabs(value[i + 1]) <= value[i]) &&
-                (best < 0 || value[i] > value[best]))
-                best = i;
-        if (best < 0 || promise(value, best, samples) <= peak->tension)
-            return;
-        const double step = 2.0 / (samples - 1), at = best * step - 1;
-        double _Complex tension;
-        const double x = refine(r, fmax(at - step, -1), fmin(at + step, 1), &tension);
-        if (cabs(tension) > peak->tension || peak->tension == 0)
-            *peak = (strum_peak){.tension = cabs(tension),
-                                 .chi = f->cable.chi_m + f->cable.mu * x,
-                                 .phase = carg(tension)};
-        value[best] = -value[best] - 1e-300; /* seen */
-    }
+    peak->tension = peak_largest(value, f->samples, refine_peak, (void *)r, &x);
+    double _Complex tension, slope;
+    response_tension(r, x, &tension, &slope);
+    peak->phase = carg(tension);
+    peak->chi = f->cable.chi_m + f->cable.mu * x;
 }
 
 /* ---- sums of harmonics

@@ -2,18 +2,18 @@
 /* Mode shapes from the coefficients of a solved spectrum. */
 #include <math.h>
 
+#include "core/peak.h"
 #include "core/spectrum.h"
 
-/* Values along the cable before normalisation; `table` has room for p and q of every k. */
-void spectrum_inplane_at(const strum_spectrum *sp, int index, double x, double *table,
+/* Values along the cable before normalisation; `table` holds p and q of every k at x. */
+void spectrum_inplane_at(const strum_spectrum *sp, int index, double x, const double *table,
                          inplane_state *state)
 {
     const root *r = &sp->roots[index];
     const inplane_part *part = sp->parts[r->symmetry];
     const strum_cable *cable = &sp->cable;
-    double *p = table, *q = table + sp->size;
+    const double *p = table, *q = table + sp->size;
     double _Complex slope[2] = {0, 0};
-    basis_at(x, sp->size, p, q);
     inplane_frame_at(&sp->coordinate, x, &state->cosh_chi, &state->c, &state->s);
     state->force[0] = r->constant[0];
     state->force[1] = r->constant[1];
@@ -32,13 +32,12 @@ void spectrum_inplane_at(const strum_spectrum *sp, int index, double x, double *
     state->displacement[1] = across;
 }
 
-static void point_at(const strum_spectrum *sp, int index, double x, double *table,
+static void point_at(const strum_spectrum *sp, int index, double x, const double *table,
                      strum_shape_point *point)
 {
     point->chi = sp->cable.chi_m + coordinate_offset(&sp->coordinate, x);
     if (sp->plane == STRUM_OUT_OF_PLANE) {
         const root *r = &sp->roots[index];
-        basis_at(x, sp->size, table, table + sp->size);
         point->normal = 0;
         for (int k = 0; k < r->length; k++)
             point->normal += r->vector[k] * table[sp->size + k];
@@ -52,44 +51,67 @@ static void point_at(const strum_spectrum *sp, int index, double x, double *tabl
     point->tension = state.c * state.force[0] + state.s * state.force[1];
 }
 
-static double _Complex component_of(const strum_shape_point *point, int component)
+/* One displacement component of one mode, for the search of its largest value. */
+typedef struct component {
+    const strum_spectrum *sp;
+    int index, number; /* of the mode; 0 tangential, 1 normal */
+    double *table;
+    double _Complex value; /* at the last x asked for */
+} component;
+
+static double component_at(void *data, double x)
 {
-    return component == 0 ? point->tangential : point->normal;
+    component *c = data;
+    strum_shape_point point;
+    basis_at_with(c->sp->factors, x, c->sp->size, c->table, c->table + c->sp->size);
+    point_at(c->sp, c->index, x, c->table, &point);
+    c->value = c->number == 0 ? point.tangential : point.normal;
+    return cabs(c->value);
 }
 
-/* Largest displacement along the whole cable, found between samples by golden section: where a
- * mode's largest value lies does not depend on how many points were asked for. */
-static double _Complex largest(const strum_spectrum *sp, int index, double *table)
+static double refine(void *data, double low, double high, double *x)
 {
-    const int samples = 4 * sp->size + 1;
-    double best = -1, x_best = 0;
-    int component = 1;
-    for (int i = 0; i < samples; i++) {
-        const double x = 2.0 * i / (samples - 1) - 1;
-        strum_shape_point point;
-        point_at(sp, index, x, table, &point);
-        for (int c = 0; c < 2; c++)
-            if (cabs(component_of(&point, c)) > best * (1 + 1e-9)) { /* the first of equals */
-                best = cabs(component_of(&point, c));
-                x_best = x;
-                component = c;
-            }
+    return peak_golden(component_at, data, low, high, x);
+}
+
+/* Where a mode's largest value lies does not depend on how many points are asked for. All modes
+ * at once: the functions at a sample cost as much as a mode's sum of them. */
+strum_status spectrum_normalise(strum_spectrum *sp)
+{
+    arena scratch = {0};
+    const size_t samples = 2 * (size_t)sp->size + 1, count = (size_t)sp->count;
+    double *table = arena_doubles(&scratch, 2 * (size_t)sp->size);
+    double *values = arena_doubles(&scratch, 2 * samples * count);
+    sp->units = arena_alloc(&sp->memory, count, sizeof *sp->units);
+    if (table == NULL || values == NULL || sp->units == NULL) {
+        arena_free(&scratch);
+        return STRUM_ERR_MEMORY;
     }
-    const double golden = 0.6180339887498949, step = 2.0 / (samples - 1);
-    double low = fmax(x_best - step, -1), high = fmin(x_best + step, 1);
-    for (int i = 0; i < 45; i++) {
-        const double left = high - golden * (high - low), right = low + golden * (high - low);
-        strum_shape_point at_left, at_right;
-        point_at(sp, index, left, table, &at_left);
-        point_at(sp, index, right, table, &at_right);
-        if (cabs(component_of(&at_left, component)) > cabs(component_of(&at_right, component)))
-            high = right;
-        else
-            low = left;
+    for (size_t i = 0; i < samples; i++) {
+        const double x = 2.0 * (double)i / (double)(samples - 1) - 1;
+        basis_at_with(sp->factors, x, sp->size, table, table + sp->size);
+        for (size_t k = 0; k < count; k++) {
+            strum_shape_point point;
+            point_at(sp, (int)k, x, table, &point);
+            values[i + 2 * k * samples] = cabs(point.tangential);
+            values[i + (2 * k + 1) * samples] = cabs(point.normal);
+        }
     }
-    strum_shape_point peak;
-    point_at(sp, index, (low + high) / 2, table, &peak);
-    return component_of(&peak, component);
+    for (size_t k = 0; k < count; k++) {
+        double largest = 0;
+        for (int number = 1; number >= 0; number--) {
+            component c = {.sp = sp, .index = (int)k, .number = number, .table = table};
+            double x;
+            const double value = peak_largest(values + (2 * k + (size_t)number) * samples,
+                                              (int)samples, refine, &c, &x);
+            if (value <= largest)
+                continue;
+            largest = component_at(&c, x);
+            sp->units[k] = c.value;
+        }
+    }
+    arena_free(&scratch);
+    return STRUM_OK;
 }
 
 strum_status strum_spectrum_shape(const strum_spectrum *sp, int index, const double *chi,
@@ -106,12 +128,13 @@ strum_status strum_spectrum_shape(const strum_spectrum *sp, int index, const dou
     double *table = arena_doubles(&scratch, 2 * (size_t)sp->size);
     if (table == NULL)
         return STRUM_ERR_MEMORY;
-    const double _Complex unit = largest(sp, index, table);
+    const double _Complex unit = sp->units[index];
     for (int i = 0; i < points; i++) {
         const double share = i == points - 1 ? 1 : 2.0 * i / (points - 1) - 1;
         const double at = chi != NULL ? chi[i] : sp->cable.chi_m + sp->cable.mu * share;
         const double x =
             chi == NULL && fabs(share) == 1 ? share : coordinate_x(&sp->coordinate, at);
+        basis_at_with(sp->factors, x, sp->size, table, table + sp->size);
         point_at(sp, index, x, table, &shape[i]);
         shape[i].chi = at;
         shape[i].tangential /= unit;

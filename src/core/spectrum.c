@@ -185,9 +185,33 @@ static bool by_displacement(const strum_cable *c, strum_plane plane, bool shapes
            inplane_proportional(c) && fabs(c->chi_m) + c->mu <= DISPLACEMENT_CHI_PRECISE;
 }
 
-/* One try at one size; STRUM_ERR_ACCURACY when the two sizes differ. */
+/* Largest of the last coefficients of any mode, relative to the mode's largest: what the size
+ * leaves out of the shapes, which converge at half the rate of the frequencies. */
+static double shape_tail(const strum_spectrum *sp)
+{
+    double worst = 0;
+    for (int i = 0; i < sp->count; i++) {
+        const root *r = &sp->roots[i];
+        double largest = 0, last = 0;
+        for (int j = 0; j < r->length; j++) {
+            const int k =
+                sp->plane == STRUM_OUT_OF_PLANE ? j : sp->parts[r->symmetry]->index[j];
+            largest = fmax(largest, cabs(r->vector[j]));
+            if (k >= sp->size - 4)
+                last = fmax(last, cabs(r->vector[j]));
+        }
+        worst = fmax(worst, last / largest);
+    }
+    return worst;
+}
+
+/* Relative; makes shapes right to about 1e-9 of their largest value. */
+#define SHAPE_TAIL_MAX 1e-11
+
+/* One try at one size; STRUM_ERR_ACCURACY when the two sizes differ or shapes are cut off:
+ * `*excess` is how many times too much. */
 static strum_status attempt(strum_spectrum *sp, int size, int block, int want, int count,
-                            double tolerance)
+                            double tolerance, double *excess)
 {
     arena *a = &sp->memory;
     root_list all = {0}, inner = {0}, modes, inner_modes;
@@ -212,7 +236,9 @@ static strum_status attempt(strum_spectrum *sp, int size, int block, int want, i
     sp->size = size;
     sp->count = modes.count;
     sp->roots = modes.items;
-    return modes.count == count && sp->difference <= tolerance ? STRUM_OK : STRUM_ERR_ACCURACY;
+    sp->tail = sp->shapes ? shape_tail(sp) : 0;
+    *excess = fmax(sp->difference / tolerance, sp->tail / SHAPE_TAIL_MAX);
+    return modes.count == count && *excess <= 1 ? STRUM_OK : STRUM_ERR_ACCURACY;
 }
 
 static strum_status number_modes(strum_spectrum *sp)
@@ -224,7 +250,13 @@ static strum_status number_modes(strum_spectrum *sp)
         sp->modes[i] = (strum_mode){.frequency = cimag(sp->roots[i].s),
                                     .decay = 0 - creal(sp->roots[i].s),
                                     .symmetry = sp->roots[i].symmetry};
-    return STRUM_OK;
+    if (!sp->shapes)
+        return STRUM_OK;
+    sp->factors = arena_doubles(&sp->memory, 4 * (size_t)sp->size);
+    if (sp->factors == NULL)
+        return STRUM_ERR_MEMORY;
+    basis_factors(sp->size, sp->factors);
+    return spectrum_normalise(sp);
 }
 
 /* Grows the size until two agree. */
@@ -250,22 +282,22 @@ static strum_status solve(strum_spectrum *sp, int count, strum_fault *fault)
     double block = slim ? displacement_first_size(&sp->cable, want)
                         : spectrum_first_size(&sp->cable, &sp->coordinate, sp->plane, want) *
                               (sp->shapes ? 1.35 : 1);
-    double before = INFINITY;
+    double before = INFINITY, excess = INFINITY;
     while (block < most) {
         const int inner = (int)block;
         const int size = inner + (slim         ? displacement_margin(&sp->cable, inner)
                                   : inner > 40 ? inner / 10
                                                : 4);
-        const strum_status status = attempt(sp, size, inner, want, count, tolerance);
+        const strum_status status = attempt(sp, size, inner, want, count, tolerance, &excess);
         if (status == STRUM_OK)
             return number_modes(sp);
         if (status != STRUM_ERR_ACCURACY)
             return fault_set(fault, status, "%s", strum_status_text(status));
         arena_free(&sp->memory);
         /* rounding, not size, stands in the way once a larger size helps no more */
-        if (sp->difference < 1e-8 && sp->difference > before / 3)
+        if (sp->difference < 1e-8 && excess > before / 3)
             break;
-        before = sp->difference;
+        before = excess;
         block = 1.3 * block + 6;
     }
     if (sp->size == 0)
@@ -274,6 +306,12 @@ static strum_status solve(strum_spectrum *sp, int count, strum_fault *fault)
             "%d modes of this cable need about %.0f unknowns a component; %d can be "
             "solved",
             want, block, most);
+    if (sp->difference <= tolerance && sp->tail > SHAPE_TAIL_MAX)
+        return fault_set(fault, STRUM_ERR_ACCURACY,
+                         "the last terms of the mode shapes are still %.1e of the first (%.0e "
+                         "is promised) at %d unknowns a component; frequencies alone can be "
+                         "answered",
+                         sp->tail, SHAPE_TAIL_MAX, sp->size);
     return fault_set(
         fault, STRUM_ERR_ACCURACY,
         "two sizes still differ by %.1e (%.0e is promised) at %d unknowns a component",

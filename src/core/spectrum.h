@@ -11,13 +11,16 @@ struct strum_spectrum {
     strum_plane plane;
     coordinate coordinate;
     int size;
-    double difference;
+    double difference; /* of two sizes */
+    double tail;       /* of the shapes' coefficients */
     bool shapes;
     int count, overdamped;
     strum_mode *modes;
     root *roots; /* of the modes; vectors NULL without shapes */
     double *decays;
     inplane_part *parts[3]; /* by symmetry: what the vectors' unknowns are */
+    double *factors;        /* of the basis; with shapes only, as the next */
+    double _Complex *units; /* the largest displacement of each mode */
     arena memory;           /* owns all the above */
 };
 
@@ -58,7 +61,10 @@ typedef struct inplane_state {
     double cosh_chi, c, s;
     double _Complex force[2], displacement[2];
 } inplane_state;
-void spectrum_inplane_at(const strum_spectrum *spectrum, int index, double x, double *table,
-                         inplane_state *state);
+/* `table`: p and q of every k at x. */
+void spectrum_inplane_at(const strum_spectrum *spectrum, int index, double x,
+                         const double *table, inplane_state *state);
+/* Fills `units`. */
+strum_status spectrum_normalise(strum_spectrum *spectrum);
 
 #endif

@@ -17,6 +17,7 @@ static strum_status closure(const strum_spectrum *sp, int index, double *table,
     for (int i = 0; i <= 64; i++) {
         const double x = i / 32.0 - 1;
         double value;
+        basis_at_with(sp->factors, x, sp->size, table, table + sp->size);
         if (sp->plane == STRUM_IN_PLANE) {
             inplane_state state;
             spectrum_inplane_at(sp, index, x, table, &state);
@@ -27,7 +28,6 @@ static strum_status closure(const strum_spectrum *sp, int index, double *table,
             const double chi = sp->cable.chi_m + coordinate_offset(&sp->coordinate, x);
             const double e = 1 + kappa * cosh(chi);
             double _Complex w = 0, w1 = 0, w2 = 0;
-            basis_at(x, sp->size, table, table + sp->size);
             for (int k = 1; k < r->length; k++) {
                 /* q_k'' = p_k' at the ends */
                 w1 += r->vector[k] * table[k];

@@ -330,6 +330,27 @@ static void added_mass_lowers_frequencies(void **state)
     strum_spectrum_free(&loaded);
 }
 
+/* Of many peaks that are nearly alike the largest is found, not the one beside a sample. */
+static void no_point_of_a_shape_exceeds_one(void **state)
+{
+    (void)state;
+    enum { N = 4001, MODES = 40 };
+    static strum_shape_point shape[N];
+    for (int plane = 0; plane < 2; plane++) {
+        const strum_cable cable = plain(-0.0673, 0.0873);
+        strum_spectrum *spectrum = solved(&cable, (strum_plane)plane, MODES, true);
+        for (int k = 0; k < MODES; k++) {
+            double largest = 0;
+            assert_int_equal(strum_spectrum_shape(spectrum, k, NULL, N, shape), STRUM_OK);
+            for (int i = 0; i < N; i++)
+                largest = fmax(largest, fmax(cabs(shape[i].normal), cabs(shape[i].tangential)));
+            check_absolute(largest, 1, 1e-3);
+            assert_true(largest <= 1 + 1e-10);
+        }
+        strum_spectrum_free(&spectrum);
+    }
+}
+
 /* 200 modes, ordered, none missed: the second method counts them. */
 static void two_hundred_modes(void **state)
 {
@@ -428,6 +449,7 @@ int main(void)
         cmocka_unit_test(uniform_damping_is_exact),
         cmocka_unit_test(end_reversal_changes_nothing),
         cmocka_unit_test(shapes_are_normalised_and_inextensible),
+        cmocka_unit_test(no_point_of_a_shape_exceeds_one),
         cmocka_unit_test(added_mass_lowers_frequencies),
         cmocka_unit_test(two_hundred_modes),
         cmocka_unit_test(frequencies_alone_are_the_same),
