@@ -106,6 +106,8 @@ __attribute__((format(printf, 2, 0))) static void on_note(void *cls, const char 
 
 /* ---- start ---- */
 
+/* A page or a test that asks a dozen things at once is no overload. */
+#define QUEUE_FOR_EACH 16
 /* So many connections are accepted in one go. */
 #define ACCEPT_BURST 64
 
@@ -153,7 +155,7 @@ bool server_start(server *s, const settings *set, char fault[256])
     raise_file_limit(set->connections);
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     const int workers = set->workers ? (int)set->workers : cores > 1 ? (int)cores : 1;
-    s->queue_depth = set->queue_depth ? (size_t)set->queue_depth : 4 * (size_t)workers;
+    s->queue_depth = set->queue_depth ? (size_t)set->queue_depth : QUEUE_FOR_EACH * (size_t)workers;
     if (getrandom(&s->id_prefix, sizeof s->id_prefix, GRND_NONBLOCK) < 0)
         s->id_prefix = (uint32_t)clock_us();
     snprintf(fault, 256, "out of memory or threads");

@@ -43,7 +43,7 @@ static const setting table[] = {
     {"workers", SETTING_COUNT, AT(workers), 0, 1024, "0",
      "threads that solve what takes longer than inline_us; 0: one for each core"},
     {"queue_depth", SETTING_COUNT, AT(queue_depth), 0, 100000, "0",
-     "requests that may wait for a worker before others get 503; 0: four for each worker"},
+     "requests that may wait for a worker before others get 503; 0: 16 for each worker"},
     {"inline_us", SETTING_NUMBER, AT(inline_us), 0, 1e6, "50",
      "what is estimated to take less (microseconds) is solved without handing it to a worker"},
     {"cache_bytes", SETTING_BYTES, AT(cache_bytes), 0, 1e12, "64M",
