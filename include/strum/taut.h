@@ -167,7 +167,8 @@ typedef struct strum_taut_query {
     double max_decay;       /* 1/s, > 0; 0 with `numbers`: what their roots need */
     strum_taut_method method;
     /* Roots of a similar chain (may be NULL): where they lead to every root that the count
-     * expects, no branch is followed. Only for a band. */
+     * expects, no branch is followed, no overdamped root sought, and `exceptional` left
+     * unknown. Only for a band. */
     const strum_taut_root *guesses;
     size_t guess_count;
     /* Asked now and then (may be NULL); true ends the search with STRUM_ERR_CANCELLED. */

@@ -85,6 +85,20 @@ static void part(taut_solve *s, const double *w, const double *gap)
         }
 }
 
+/* Where branches coalesce at the full damping the last steps shrink to nothing: from so near
+ * Newton's method has the rest of the way. */
+static void arrive(taut_solve *s)
+{
+    for (long k = s->first; k <= s->last; k++) {
+        taut_branch *branch = &s->branches[k - s->first];
+        cplx end = branch->s[0];
+        if (branch->state == TAUT_LOST && branch->factor > 1.0 - 1e-6 &&
+            taut_newton(&s->search, &end) && cimag(end) > 0.0 &&
+            cabs(end - branch->s[0]) < 1e-2 * s->search.spacing)
+            *branch = (taut_branch){k, 1.0, TAUT_OSCILLATES, {end, conj(end)}};
+    }
+}
+
 /* Follows modes first..last, dropping what was followed before (`w`, `gap`: room for them). */
 static strum_status follow(taut_solve *s, double *w, double *gap)
 {
@@ -101,6 +115,7 @@ static strum_status follow(taut_solve *s, double *w, double *gap)
         taut_branch_follow(&s->search, branch, gap[i], 1.0, 1.0);
     }
     part(s, w, gap);
+    arrive(s);
     s->known = 0;
     strum_status status = reserve(s, 2 * count);
     for (size_t i = 0; i < count && status == STRUM_OK; i++) {
@@ -185,6 +200,25 @@ static strum_status count_box(taut_solve *s, taut_rectangle *box, long *expected
                      "the roots of the band could not be counted: one lies on its border");
 }
 
+/* The mode of a root that was searched for: where two branches coalesce at the full damping no
+ * step leads to their end, which is told by its being near. Else 0. */
+static long mode_near(const taut_solve *s, cplx root)
+{
+    double nearest = 1e-2 * s->search.spacing;
+    long mode = 0;
+    for (long k = s->first; k <= s->last; k++) {
+        const double apart = cabs(s->branches[k - s->first].s[0] - root);
+        bool led = false;
+        for (size_t i = 0; i < s->known; i++)
+            led = led || s->mode[i] == k;
+        if (!led && apart < nearest) {
+            nearest = apart;
+            mode = k;
+        }
+    }
+    return mode;
+}
+
 /* Counts, and searches for what the branches did not lead to. */
 static strum_status complete(taut_solve *s, taut_rectangle *box, long *expected, long *found)
 {
@@ -203,6 +237,8 @@ static strum_status complete(taut_solve *s, taut_rectangle *box, long *expected,
         taut_find_missing(&s->search, box, *expected, s->s, &s->known, s->room);
         for (size_t i = before; i < s->known; i++)
             s->mode[i] = 0;
+        for (size_t i = before; i < s->known; i++)
+            s->mode[i] = mode_near(s, s->s[i]);
     }
     *found = known_inside(s, box);
     if (s->search.status != STRUM_OK)
@@ -241,13 +277,18 @@ static double exceptional(taut_solve *s, size_t i)
     return apart == 0.0 ? INFINITY : 0.5 * nearest / cabs(apart);
 }
 
+static strum_taut_root plain_root(const taut_solve *s, size_t i)
+{
+    const double frequency = cimag(s->s[i]), decay = -creal(s->s[i]);
+    /* what is only rounding is none: even modes pass by their absorbers */
+    return (strum_taut_root){s->mode[i], frequency, decay < 4e-15 * frequency ? 0.0 : decay,
+                             INFINITY};
+}
+
 static strum_status give(taut_solve *s, size_t i, bool overdamped)
 {
     const cplx root = s->s[i];
-    strum_taut_root out = {s->mode[i], cimag(root), -creal(root), INFINITY};
-    /* what is only rounding is none: even modes pass by their absorbers */
-    if (out.decay < 4e-15 * out.frequency)
-        out.decay = 0.0;
+    strum_taut_root out = plain_root(s, i);
     const taut_value value = taut_search_value(&s->search, root);
     if (value.f != 0.0)
         s->out->max_residual =
@@ -410,7 +451,8 @@ static strum_status solve_run(taut_solve *s, long first, long last)
     return status;
 }
 
-/* Roots of a similar chain lead to all that the count expects, or nothing is given out. */
+/* Roots of a similar chain lead to all that the count expects, or nothing is given out; the
+ * roots alone, for searches that come by often. */
 static strum_status solve_by_guesses(taut_solve *s, bool *done)
 {
     const strum_taut_query *q = s->query;
@@ -436,12 +478,12 @@ static strum_status solve_by_guesses(taut_solve *s, bool *done)
         return STRUM_OK;
     for (size_t i = 0; i < s->known && status == STRUM_OK; i++)
         if (taut_inside(&box, s->s[i]))
-            status = give(s, i, false);
+            status = taut_solve_add(s, plain_root(s, i), false);
     s->out->lowest = box.im_lo;
     s->out->highest = box.im_hi;
     s->out->max_decay = -box.re_lo;
     *done = status == STRUM_OK;
-    return status == STRUM_OK ? solve_axis(s, box.im_lo, q->max_decay) : status;
+    return status;
 }
 
 strum_status taut_solve_damped(taut_solve *s)

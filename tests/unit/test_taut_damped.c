@@ -266,6 +266,18 @@ static void exceptional_points_are_recognised(void **state)
         assert_true(roots->roots[i].exceptional < 1e-8);
     }
     strum_taut_roots_free(&roots);
+    /* by number too: both modes end there */
+    const long numbers[2] = {1, 2};
+    const strum_taut_query query = {.numbers = numbers, .count = 2};
+    assert_int_equal(strum_taut_solve(chain, &query, &roots, NULL), STRUM_OK);
+    assert_int_equal(roots->count, 2);
+    assert_int_equal(roots->lost, 0);
+    for (int i = 0; i < 2; i++) {
+        const double _Complex w = CMPLX(roots->roots[i].frequency, roots->roots[i].decay);
+        assert_int_equal(roots->roots[i].mode, numbers[i]);
+        check_absolute(cabs(w - CMPLX(3.95125073976, .921022475352)), 0.0, 1e-5);
+    }
+    strum_taut_roots_free(&roots);
     strum_taut_free(&chain);
     const double ratio = 23.890639081849, mass = 0.4 * ratio;
     chain = levesque(mass, mass * 0.16 / 12.0, 2328.0254647579);
