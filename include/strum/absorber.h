@@ -23,7 +23,7 @@ extern "C" {
 #endif
 
 #define STRUM_ABSORBER_VARIABLES_MAX 6
-#define STRUM_ABSORBER_OPTIMA_MAX    8
+#define STRUM_ABSORBER_OPTIMA_MAX    16
 #define STRUM_ABSORBER_MODES_MAX     64
 
 typedef struct strum_absorber_problem {

@@ -1,27 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <strum/absorber.h>
+#include "core/absorber.h"
 
 #include <math.h>
-#include <nlopt.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
 
 /* Local searches that begin, at most. */
-#define STARTS 6
+#define STARTS STRUM_ABSORBER_OPTIMA_MAX
+/* Places of the scan in one variable. */
+#define SCAN_ONE 65
+/* Climbs that lead to the best optimum before it is believed to be the best of all. */
+#define CONFIRMED 3
 /* A variable whose bounds differ by more is searched by its logarithm. */
 #define LOG_RANGE 30.0
-
-typedef struct search {
-    const strum_absorber_problem *problem;
-    long evaluations, limit;
-    double best, best_at[STRUM_ABSORBER_VARIABLES_MAX];
-    bool stopped;        /* by progress or the budget */
-    strum_status broken; /* an error that ends everything */
-    strum_fault *fault;
-    strum_taut_roots *last; /* of the trial before: guesses for the next */
-} search;
 
 double strum_absorber_scale(double low, double high, double share)
 {
@@ -86,26 +79,61 @@ strum_status strum_absorber_roots(const strum_absorber_problem *p, const double 
     return status;
 }
 
-/* The smallest damping ratio at one trial. A trial that cannot be answered counts as undamped:
- * a search may pass by, it may not end there. */
-static double trial(search *s, const double *t)
+void search_count(search *s)
 {
     const strum_absorber_problem *p = s->problem;
-    double values[STRUM_ABSORBER_VARIABLES_MAX], objective = 0;
-    if (s->stopped || s->broken != STRUM_OK)
-        return 0;
-    values_of(p, t, values);
-    strum_taut *chain = NULL;
-    strum_taut_roots *roots = NULL;
-    strum_status status = p->build(p->context, values, &chain, s->fault);
-    if (status == STRUM_OK)
-        status = roots_of(p, chain, s->last, &roots, s->fault);
-    strum_taut_free(&chain);
+    double values[STRUM_ABSORBER_VARIABLES_MAX];
     s->evaluations++;
+    values_of(p, s->best_at, values);
+    if (s->evaluations >= s->limit ||
+        (p->progress != NULL && !p->progress(p->context, s->evaluations, s->best, values)))
+        s->stopped = true;
+}
+
+static void note_status(search *s, strum_status status)
+{
     if (status == STRUM_ERR_MEMORY || status == STRUM_ERR_CANCELLED ||
         status == STRUM_ERR_INTERNAL)
         s->broken = status;
-    if (status == STRUM_OK) {
+}
+
+strum_taut *search_chain(search *s, const double *t)
+{
+    double values[STRUM_ABSORBER_VARIABLES_MAX];
+    strum_taut *chain = NULL;
+    values_of(s->problem, t, values);
+    note_status(s, s->problem->build(s->problem->context, values, &chain, s->fault));
+    return chain;
+}
+
+strum_taut_roots *search_roots(search *s, const double *t, double beyond)
+{
+    strum_absorber_problem wider = *s->problem;
+    strum_taut_roots *roots = NULL;
+    strum_taut *chain = search_chain(s, t);
+    if (chain == NULL)
+        return NULL;
+    wider.lowest = fmax(wider.lowest - beyond, 0.5 * wider.lowest);
+    wider.highest += beyond;
+    note_status(s, roots_of(&wider, chain, s->last, &roots, s->fault));
+    strum_taut_free(&chain);
+    return roots;
+}
+
+/* The smallest damping ratio at one trial. A trial that cannot be answered counts as undamped:
+ * a search may pass by, it may not end there. */
+double search_trial(search *s, const double *t)
+{
+    const strum_absorber_problem *p = s->problem;
+    double objective = 0;
+    if (!search_goes_on(s))
+        return 0;
+    strum_taut *chain = search_chain(s, t);
+    strum_taut_roots *roots = NULL;
+    if (chain != NULL)
+        note_status(s, roots_of(p, chain, s->last, &roots, s->fault));
+    strum_taut_free(&chain);
+    if (roots != NULL) {
         const int limiting = strum_absorber_limiting(roots);
         objective = limiting >= 0 ? damping_ratio(&roots->roots[limiting]) : 0;
         strum_taut_roots_free(&s->last);
@@ -115,52 +143,8 @@ static double trial(search *s, const double *t)
         s->best = objective;
         memcpy(s->best_at, t, (size_t)p->variables * sizeof *t);
     }
-    values_of(p, s->best_at, values);
-    if (s->evaluations >= s->limit ||
-        (p->progress != NULL && !p->progress(p->context, s->evaluations, s->best, values)))
-        s->stopped = true;
+    search_count(s);
     return objective;
-}
-
-static double nlopt_trial(unsigned n, const double *t, double *gradient, void *data)
-{
-    (void)n;
-    (void)gradient; /* the search asks for none */
-    return trial(data, t);
-}
-
-/* Subplex from `t` with at most `budget` trials a round, restarted with smaller steps until a
- * round gains less than `gain` of what there is; ends at the best place. */
-static double climb(search *s, double *t, double step, int rounds, double gain, int budget)
-{
-    const int n = s->problem->variables;
-    double best = trial(s, t);
-    for (; rounds > 0 && !s->stopped && s->broken == STRUM_OK; rounds--, step /= 4) {
-        double at[STRUM_ABSORBER_VARIABLES_MAX], found = best;
-        memcpy(at, t, sizeof at);
-        nlopt_opt opt = nlopt_create(NLOPT_LN_SBPLX, (unsigned)n);
-        if (opt == NULL) {
-            s->broken = STRUM_ERR_MEMORY;
-            return best;
-        }
-        nlopt_set_max_objective(opt, nlopt_trial, s);
-        nlopt_set_lower_bounds1(opt, 0);
-        nlopt_set_upper_bounds1(opt, 1);
-        nlopt_set_initial_step1(opt, step);
-        nlopt_set_xtol_abs1(opt, 1e-9);
-        nlopt_set_ftol_rel(opt, gain / 10);
-        nlopt_set_maxeval(opt, (int)fmin(budget, (double)(s->limit - s->evaluations)));
-        (void)nlopt_optimize(opt, at, &found);
-        nlopt_destroy(opt);
-        if (!(found > best))
-            break;
-        const bool little = found < best * (1 + gain);
-        best = found;
-        memcpy(t, at, sizeof at);
-        if (little)
-            break;
-    }
-    return best;
 }
 
 /* Golden section about a place of a scan in one variable. */
@@ -169,20 +153,20 @@ static double climb_one(search *s, double *t, double step)
     const double golden = 0.6180339887498949;
     double low = fmax(*t - step, 0), high = fmin(*t + step, 1);
     double left = high - golden * (high - low), right = low + golden * (high - low);
-    double at_left = trial(s, &left), at_right = trial(s, &right);
-    while (high - low > 1e-10 && !s->stopped && s->broken == STRUM_OK) {
+    double at_left = search_trial(s, &left), at_right = search_trial(s, &right);
+    while (high - low > 1e-10 && search_goes_on(s)) {
         if (at_left > at_right) {
             high = right;
             right = left;
             at_right = at_left;
             left = high - golden * (high - low);
-            at_left = trial(s, &left);
+            at_left = search_trial(s, &left);
         } else {
             low = left;
             left = right;
             at_left = at_right;
             right = low + golden * (high - low);
-            at_right = trial(s, &right);
+            at_right = search_trial(s, &right);
         }
     }
     *t = at_left > at_right ? left : right;
@@ -234,19 +218,20 @@ static void keep(place *best, int *count, const place *new, int n, double apart)
         best[worst] = *new;
 }
 
-static int scan(search *s, place *best)
+/* Places to climb from: the best of `points` of the sequence, from its number `first` on (one
+ * variable: of its whole range). */
+static int scan(search *s, long first, long points, place *best)
 {
     const int n = s->problem->variables;
-    const long points = n == 1 ? 33 : (long)fmin(40.0 * n, 0.3 * (double)s->limit);
-    const double apart = n == 1 ? 1.5 / 32 : 0.1;
+    const double apart = n == 1 ? 1.5 / (double)(points - 1) : 0.1;
     int count = 0;
-    for (long k = 0; k < points && !s->stopped && s->broken == STRUM_OK; k++) {
+    for (long k = 0; k < points && search_goes_on(s); k++) {
         place p = {.value = 0};
         if (n == 1)
             p.t[0] = (double)k / (double)(points - 1);
         else
-            sequence(n, k + 1, p.t);
-        p.value = trial(s, p.t);
+            sequence(n, first + k + 1, p.t);
+        p.value = search_trial(s, p.t);
         keep(best, &count, &p, n, apart);
     }
     return count;
@@ -254,8 +239,11 @@ static int scan(search *s, place *best)
 
 static void note(const strum_absorber_problem *p, const place *end, strum_absorber_optimum *out)
 {
-    int at = out->optima_count < STRUM_ABSORBER_OPTIMA_MAX ? out->optima_count++
-                                                           : STRUM_ABSORBER_OPTIMA_MAX - 1;
+    int at = out->optima_count;
+    if (at < STRUM_ABSORBER_OPTIMA_MAX)
+        out->optima_count++;
+    else if (out->optima[--at].damping_ratio >= end->value)
+        return;
     for (; at > 0 && out->optima[at - 1].damping_ratio < end->value; at--)
         out->optima[at] = out->optima[at - 1];
     values_of(p, end->t, out->optima[at].values);
@@ -268,25 +256,56 @@ static int by_value(const void *left, const void *right)
     return l->value > r->value ? -1 : l->value < r->value;
 }
 
-static void run(search *s, strum_absorber_optimum *out)
+/* One variable: a fine scan, and every peak of it that may be the highest. */
+static void run_one(search *s, strum_absorber_optimum *out)
 {
     place best[STARTS];
-    const int n = s->problem->variables;
-    out->starts = scan(s, best);
-    for (int i = 0; i < out->starts && !s->stopped && s->broken == STRUM_OK; i++)
-        best[i].value = n == 1 ? climb_one(s, best[i].t, 1.0 / 32)
-                               : climb(s, best[i].t, 0.08, 1, 1e-3, 50 * n);
-    qsort(best, (size_t)out->starts, sizeof *best, by_value);
-    /* the two best to the end: which is the better shows only there */
-    for (int i = 0; i < 2 && i < out->starts && n > 1 && !s->stopped && s->broken == STRUM_OK;
-         i++)
-        if (best[i].value > 0.97 * best[0].value)
-            best[i].value = climb(s, best[i].t, 0.02, 3, 1e-6, 120 * n);
+    out->starts = scan(s, 0, SCAN_ONE, best);
+    for (int i = 0; i < out->starts && search_goes_on(s); i++)
+        best[i].value = climb_one(s, best[i].t, 1.0 / (SCAN_ONE - 1));
     for (int i = 0; i < out->starts; i++)
         note(s->problem, &best[i], out);
-    /* the winner once more from where it stands: a kink may have held the simplex */
-    if (n > 1 && !s->stopped && s->broken == STRUM_OK)
-        (void)climb(s, s->best_at, 0.002, 4, 1e-7, 120 * n);
+}
+
+/* How many of the climbs ended at the best place's height. */
+static int reached(const search *s, const place *ends, int count)
+{
+    int times = 0;
+    for (int i = 0; i < count; i++)
+        times += ends[i].value >= s->best * (1 - 1e-4);
+    return times;
+}
+
+/* Several: passes of scanning and climbing, until enough climbs lead to the same best. */
+static void run_several(search *s, strum_absorber_optimum *out)
+{
+    const int n = s->problem->variables;
+    const long all = s->limit, points = (long)fmin(80.0 * n, 0.3 * (double)all);
+    double best_before = 0;
+    int times = 0;
+    s->limit = (long)(0.85 * (double)all); /* the rest is for the end */
+    for (int pass = 0; times < CONFIRMED && search_goes_on(s); pass++) {
+        place best[STARTS];
+        const int starts = scan(s, pass * points, points, best);
+        for (int i = 0; i < starts && search_goes_on(s); i++)
+            best[i].value = absorber_climb(s, best[i].t, 0.1, 6, 1e-3);
+        qsort(best, (size_t)starts, sizeof *best, by_value);
+        /* which of the good ones is the best shows only at their ends */
+        for (int i = 0; i < 2 && i < starts && search_goes_on(s); i++)
+            if (best[i].value > 0.9 * best[0].value)
+                best[i].value = absorber_climb(s, best[i].t, 0.03, 20, 1e-7);
+        for (int i = 0; i < starts; i++)
+            note(s->problem, &best[i], out);
+        out->starts += starts;
+        times = (s->best > best_before * (1 + 1e-4) ? 0 : times) + reached(s, best, starts);
+        best_before = s->best;
+    }
+    const bool unconfirmed = s->stopped && s->evaluations >= s->limit;
+    s->stopped = s->stopped && !unconfirmed;
+    s->limit = all;
+    if (search_goes_on(s))
+        (void)absorber_climb(s, s->best_at, 0.003, 20, 1e-12);
+    s->stopped = s->stopped || unconfirmed;
 }
 
 strum_status strum_absorber_optimize(const strum_absorber_problem *p,
@@ -297,7 +316,10 @@ strum_status strum_absorber_optimize(const strum_absorber_problem *p,
                          STRUM_ABSORBER_VARIABLES_MAX);
     search s = {.problem = p, .limit = p->max_evaluations, .fault = fault};
     memset(out, 0, sizeof *out);
-    run(&s, out);
+    if (p->variables == 1)
+        run_one(&s, out);
+    else
+        run_several(&s, out);
     strum_taut_roots_free(&s.last);
     out->evaluations = s.evaluations;
     out->complete = !s.stopped;

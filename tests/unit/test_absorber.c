@@ -79,9 +79,15 @@ static void hanging_absorber_exceptional_point(void **state)
     const strum_absorber_problem problem = {2, low, high, build_hanging, &h,  NULL,
                                             0, 0.5, 7,    4000,          NULL};
     const strum_absorber_optimum best = solved(&problem);
-    check_relative(best.values[0], 68.8240822771165, 1e-3);
-    check_relative(best.values[1], 15.954079505678644, 1e-3);
-    check_relative(best.loss_ratio, 0.2330964385740096, 1e-4);
+    check_relative(best.values[0], 68.8240822771165, 1e-9);
+    check_relative(best.values[1], 15.954079505678644, 1e-9);
+    check_relative(best.loss_ratio, 0.2330964385740096, 1e-7);
+    /* the same two modes asked by number */
+    const long modes[] = {1, 2};
+    const strum_absorber_problem branches = {2, low, high, build_hanging, &h,  modes,
+                                             2, 0,   0,    6000,          NULL};
+    const strum_absorber_optimum again = solved(&branches);
+    check_relative(again.loss_ratio, 0.2330964385740096, 1e-7);
 }
 
 /* Moved off mid-span so that even modes are damped too: min zeta 0.06325566987 over 0.3 < Re w
@@ -94,8 +100,11 @@ static void hanging_absorber_over_a_band(void **state)
     const strum_absorber_problem problem = {3, low, high, build_hanging, &h,  NULL,
                                             0, 0.3, 11,   6000,          NULL};
     const strum_absorber_optimum best = solved(&problem);
-    check_relative(best.loss_ratio, 0.06325566987, 1e-4);
-    check_relative(best.values[2], 13.513029279, 1e-2);
+    check_relative(best.loss_ratio, 0.06325566987, 1e-9);
+    check_relative(best.values[0], 102.82784028, 1e-7);
+    check_relative(best.values[1], 21.013272267, 1e-7);
+    check_relative(best.values[2], 13.513029279, 1e-7);
+    assert_true(best.complete);
 }
 
 /* The in-line absorber of Levesque's baseline: branch 3 by damping alone, R = 103015.243, zeta
