@@ -23,7 +23,8 @@ static double promise(const double *value, int i, int samples)
                : value[i] + peak_excess(fabs(value[i - 1]), value[i], fabs(value[i + 1]));
 }
 
-/* The largest local maximum among the samples that was not looked at; -1 where there is none. */
+/* The largest local maximum among the samples that was not looked at; -1 where there is none.
+ */
 static int unseen(const double *value, int samples)
 {
     int best = -1;
@@ -46,8 +47,8 @@ double peak_largest(double *value, int samples, peak_refine refine, void *data, 
         const bool earlier = value[i] > largest * (1 - TIED) && i * step - 1 < *x;
         if (earlier || promise(value, i, samples) > largest) {
             double at;
-            const double found = refine(data, fmax((i - 1) * step - 1, -1),
-                                        fmin((i + 1) * step - 1, 1), &at);
+            const double found =
+                refine(data, fmax((i - 1) * step - 1, -1), fmin((i + 1) * step - 1, 1), &at);
             if (found > largest * (1 + TIED) || (found > largest * (1 - TIED) && at < *x))
                 *x = at;
             largest = fmax(largest, found);
