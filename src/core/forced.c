@@ -23,6 +23,10 @@
 /* Largest coefficient among the last ones, relative to the largest: the error of a response. */
 #define TAIL_MAX 1e-12
 
+/* Damping and inertia make less than rounding of the static answer here, and their products
+ * would underflow. */
+#define STATIC_BELOW 1e-100
+
 /* r_k = q_k(1) d + constants' d for unit d; only q_0 does not vanish at the ends. */
 static double load(const forced_part *p, int j, int direction)
 {
@@ -180,8 +184,8 @@ static strum_status make(strum_forced *f, strum_fault *fault)
                                                          f->frequency_max));
     if (!(count < STRUM_MODES_MAX))
         return fault_set(fault, STRUM_ERR_RANGE,
-                         "about %.0f modes lie below the highest frequency; %d can be answered",
-                         count, STRUM_MODES_MAX);
+                         "about %.6g modes lie below the highest frequency; %d can be answered",
+                         ceil(count), STRUM_MODES_MAX);
     double error = INFINITY;
     const strum_plane plane = f->in_plane ? STRUM_IN_PLANE : STRUM_OUT_OF_PLANE;
     double size =
@@ -196,6 +200,10 @@ static strum_status make(strum_forced *f, strum_fault *fault)
             return STRUM_OK;
         arena_free(&f->memory);
     }
+    if (isinf(error))
+        return fault_set(fault, STRUM_ERR_ACCURACY,
+                         "the response needs about %.0f unknowns a component; %d can be solved",
+                         size, SPECTRUM_SIZE_MAX_QUADRATIC);
     return fault_set(fault, STRUM_ERR_ACCURACY,
                      "the response needs more than %d unknowns a component (error %.1e)",
                      SPECTRUM_SIZE_MAX_QUADRATIC, error);
@@ -325,7 +333,7 @@ strum_status strum_forced_solve(const strum_forced *f, double frequency,
     for (int k = 0; k < 2; k++)
         d[k] = motion->tangential * f->end[0][k] + motion->normal * f->end[1][k];
     /* nothing moves at frequency 0, so the static answer knows no damping */
-    const bool modal = f->proportional || frequency == 0;
+    const bool modal = f->proportional || frequency < STATIC_BELOW;
     const double _Complex omega2 = modal ? -(s * s + s * cable->eta_t / cable->mass_t) : 1;
     response->motion = *motion;
     response->scale = omega2;

@@ -267,7 +267,7 @@ static strum_status solve(strum_spectrum *sp, int count, strum_fault *fault)
     if (lost > 2 * STRUM_MODES_MAX)
         return fault_set(
             fault, STRUM_ERR_RANGE,
-            "about %.0f modes would be overdamped, more than %d: less damping can be "
+            "about %.6g modes would be overdamped, more than %d: less damping can be "
             "answered",
             lost, 2 * STRUM_MODES_MAX);
     const int want = count + (int)lost;

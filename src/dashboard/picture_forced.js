@@ -10,7 +10,7 @@ function curve(answer, kept) {
     const points = one.result.curve.filter((point) => !point.unbounded);
     return { label, x: points.map((point) => point.frequency_ratio), y: points.map((point) => point.max_dynamic_tension), points: points.length < 40, dash: i > 0 };
   });
-  const marks = answer.result.resonances.map((one) => ({ x: one.frequency_ratio, label: `${one.plane === 'in_plane' ? '' : 'out '}${one.mode}` }));
+  const marks = answer.result.resonances.map((one) => ({ x: one.forcing_frequency_ratio ?? one.frequency_ratio, label: `${one.plane === 'in_plane' ? '' : 'out '}${one.mode}` }));
   return {
     kind: 'chart', key: 'curve', name: 'dynamic-tension', title: 'Largest dynamic tension against forcing frequency', series, marks,
     x: { label: 'forcing frequency \u03c9/\u221a(g/a)' }, y: { label: 'tension in S\u2080', log: true },

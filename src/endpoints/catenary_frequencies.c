@@ -320,8 +320,16 @@ static bool answer_modes(const void *data, answer *a)
         if (asks(r, (strum_plane)plane))
             status = solve_plane(r, (strum_plane)plane, &found[plane], &fault);
     bool good = status == STRUM_OK;
-    if (!good)
+    if (!good) {
         cable_refuse(&fault, status, a->problem);
+        /* out of range is what damping leaves of the modes; the rest grows with their number */
+        const char *pointer = r->method == METHOD_SERIES                 ? "/method"
+                              : status != STRUM_ERR_RANGE                ? "/modes"
+                              : r->in.eta_normal >= r->in.eta_tangential ? "/eta_normal"
+                                                                         : "/eta_tangential";
+        if (status == STRUM_ERR_RANGE || status == STRUM_ERR_ACCURACY)
+            problem_add(a->problem, pointer, "%s", fault.reason);
+    }
     a->theory = theory(r);
     cable_warn(&r->in, a);
     json_writer *json = a->result;

@@ -227,6 +227,19 @@ static void solving_free(solving *s)
     strum_forced_free(&s->forced);
 }
 
+/* The field that holds the highest frequency. */
+static const char *highest_field(const request *r)
+{
+    double curve = 0, profiles = 0;
+    for (int i = 0; i < frequency_count(r); i++)
+        curve = fmax(curve, frequency_at(r, i));
+    for (size_t i = 0; i < r->profiles_at.count; i++)
+        profiles = fmax(profiles, r->profiles_at.items[i]);
+    return profiles > curve                ? "/profiles_at"
+           : r->frequency_ratios.count > 0 ? "/frequency_ratios"
+                                           : "/frequency_ratio_max";
+}
+
 static bool solving_make(solving *s, const request *r, problem *p)
 {
     strum_fault fault = {0};
@@ -237,8 +250,11 @@ static bool solving_make(solving *s, const request *r, problem *p)
         s->responses[i] = strum_response_make(s->forced);
         status = s->responses[i] != NULL ? STRUM_OK : STRUM_ERR_MEMORY;
     }
-    if (status != STRUM_OK)
+    if (status != STRUM_OK) {
         cable_refuse(&fault, status, p);
+        if (status == STRUM_ERR_RANGE || status == STRUM_ERR_ACCURACY)
+            problem_add(p, highest_field(r), "%s", fault.reason);
+    }
     return status == STRUM_OK;
 }
 
@@ -449,60 +465,113 @@ static const char *symmetry_text(strum_symmetry symmetry)
     return texts[symmetry];
 }
 
-/* With damping the oscillating modes with their decays, without it the natural frequencies with
- * how strongly the motion drives each. */
-static strum_status write_resonances(json_writer *json, const solving *s, strum_resonance *list,
-                                     int count)
+/* True when some harmonic at `multiple`, the first such one being `i`, moves the end in this
+ * plane. */
+static bool drives(const request *r, int i, strum_plane plane)
 {
-    const request *r = s->r;
-    strum_spectrum *damped[2] = {NULL, NULL};
-    strum_status status = STRUM_OK;
-    for (int plane = 0; plane < 2 && cable_damped(&r->in); plane++) {
-        int modes = 0;
-        for (int i = 0; i < count; i++)
-            modes += list[i].plane == (strum_plane)plane;
-        if (modes > 0 && status == STRUM_OK)
-            status = strum_modes_solve(&r->in.cable, (strum_plane)plane,
-                                       modes < STRUM_MODES_MAX ? modes + 1 : modes, false,
-                                       &damped[plane], NULL);
+    bool moves = false;
+    for (int k = 0; k < r->motion_count; k++) {
+        if (r->multiples[k] != r->multiples[i])
+            continue;
+        if (k < i)
+            return false;
+        const strum_end_motion *m = &r->motions[k];
+        moves |= plane == STRUM_IN_PLANE ? m->tangential != 0 || m->normal != 0
+                                         : m->out_of_plane != 0;
     }
-    double lowest = INFINITY;
-    for (int i = 0; i < frequency_count(r); i++)
+    return moves || !periodic(r);
+}
+
+/* One natural frequency, once for every multiple of a forcing frequency in the range that meets
+ * it. `strength` is negative where it has no meaning. */
+static void write_resonance(json_writer *json, const request *r, const strum_resonance *at,
+                            double decay, double strength)
+{
+    double lowest = INFINITY, highest = 0;
+    for (int i = 0; i < frequency_count(r); i++) {
         lowest = fmin(lowest, frequency_at(r, i));
-    double highest = 0;
-    for (int i = 0; i < frequency_count(r); i++)
         highest = fmax(highest, frequency_at(r, i));
-    json_key(json, "resonances");
-    json_open_array(json);
-    for (int i = 0; i < count && status == STRUM_OK; i++) {
-        const strum_resonance *at = &list[i];
-        const strum_mode *mode = damped[at->plane] != NULL
-                                     ? strum_spectrum_mode(damped[at->plane], at->mode - 1)
-                                     : NULL;
-        const double frequency = (mode != NULL ? mode->frequency : at->frequency) * r->in.ratio;
-        if (frequency < lowest || frequency > highest)
+    }
+    for (int i = 0; i < r->motion_count; i++) {
+        const double forcing = at->frequency * r->in.ratio / r->multiples[i];
+        if (forcing < lowest || forcing > highest || !drives(r, i, at->plane))
             continue;
         json_open_object(json);
         json_put_string(json, "plane",
                         at->plane == STRUM_IN_PLANE ? "in_plane" : "out_of_plane");
         json_put_integer(json, "mode", at->mode);
-        cable_write_rates(json, &r->in,
-                          mode != NULL ? CMPLX(-mode->decay, mode->frequency)
-                                       : CMPLX(0, at->frequency));
+        cable_write_rates(json, &r->in, CMPLX(-decay, at->frequency));
         json_put_string(json, "symmetry", symmetry_text(at->symmetry));
-        if (mode == NULL && !periodic(r))
-            json_put_number(json, "strength", at->residue);
+        if (strength >= 0)
+            json_put_number(json, "strength", strength);
+        if (periodic(r)) {
+            json_put_integer(json, "multiple", r->multiples[i]);
+            json_put_number(json, "forcing_frequency_ratio", forcing);
+        }
         json_close_object(json);
     }
+}
+
+/* The damped modes up to the highest frequency, at least; damping lowers frequencies and
+ * changes their number. Where they cannot be found the curve stands without them. */
+static strum_status write_damped_resonances(json_writer *json, const request *r,
+                                            strum_plane plane, answer *a)
+{
+    strum_spectrum *spectrum = NULL;
+    strum_fault fault = {0};
+    strum_status status;
+    double last = 0;
+    if (r->highest == 0)
+        return STRUM_OK;
+    for (int modes = 6; last * r->in.ratio <= r->highest && modes <= STRUM_MODES_MAX;
+         modes = modes < STRUM_MODES_MAX ? (int)fmin(2 * modes, STRUM_MODES_MAX) : modes + 1) {
+        strum_spectrum_free(&spectrum);
+        status = strum_modes_solve(&r->in.cable, plane, modes, false, &spectrum, &fault);
+        if (status == STRUM_ERR_RANGE || status == STRUM_ERR_ACCURACY) {
+            answer_warn(a, "the resonances %s are not listed: %s",
+                        plane == STRUM_IN_PLANE ? "in plane" : "out of plane", fault.reason);
+            return STRUM_OK;
+        }
+        if (status != STRUM_OK)
+            return status;
+        last = strum_spectrum_mode(spectrum, modes - 1)->frequency;
+    }
+    for (int i = 0; i < strum_spectrum_count(spectrum); i++) {
+        const strum_mode *mode = strum_spectrum_mode(spectrum, i);
+        const strum_resonance at = {.frequency = mode->frequency,
+                                    .plane = plane,
+                                    .mode = i + 1,
+                                    .symmetry = mode->symmetry};
+        write_resonance(json, r, &at, mode->decay, -1);
+    }
+    strum_spectrum_free(&spectrum);
+    return STRUM_OK;
+}
+
+/* With damping the oscillating modes with their decays, without it the natural frequencies with
+ * how strongly the motion drives each. */
+static strum_status write_resonances(json_writer *json, const request *r,
+                                     const strum_resonance *list, int count, answer *a)
+{
+    strum_status status = STRUM_OK;
+    json_key(json, "resonances");
+    json_open_array(json);
+    if (cable_damped(&r->in)) {
+        if (r->in_plane)
+            status = write_damped_resonances(json, r, STRUM_IN_PLANE, a);
+        if (r->out_of_plane && status == STRUM_OK)
+            status = write_damped_resonances(json, r, STRUM_OUT_OF_PLANE, a);
+    } else {
+        for (int i = 0; i < count; i++)
+            write_resonance(json, r, &list[i], 0, periodic(r) ? -1 : list[i].residue);
+    }
     json_close_array(json);
-    strum_spectrum_free(&damped[0]);
-    strum_spectrum_free(&damped[1]);
     return status;
 }
 
 /* The worst differences from shooting at one frequency so far. */
 static strum_status compare_at(solving *s, double frequency_ratio, double *tension,
-                               double *displacement)
+                               double *displacement, strum_fault *fault)
 {
     const request *r = s->r;
     strum_status status = solve_at(s, frequency_ratio);
@@ -511,7 +580,7 @@ static strum_status compare_at(solving *s, double frequency_ratio, double *tensi
     for (int m = 0; m < r->motion_count && status == STRUM_OK; m++) {
         double dt, dx;
         status = strum_forced_compare(
-            s->responses[m], frequency_ratio / r->in.ratio * r->multiples[m], &dt, &dx, NULL);
+            s->responses[m], frequency_ratio / r->in.ratio * r->multiples[m], &dt, &dx, fault);
         *tension = fmax(*tension, dt);
         *displacement = fmax(*displacement, dx);
     }
@@ -520,7 +589,7 @@ static strum_status compare_at(solving *s, double frequency_ratio, double *tensi
 
 /* How many natural frequencies the second method counts where `count` were found. */
 static strum_status count_modes(const request *r, const strum_resonance *list, int count,
-                                int *expected)
+                                int *expected, strum_fault *fault)
 {
     strum_cable undamped = r->in.cable;
     undamped.eta_t = undamped.eta_n = 0;
@@ -534,9 +603,10 @@ static strum_status count_modes(const request *r, const strum_resonance *list, i
         strum_verification v = {0};
         if (modes == 0)
             continue;
-        status = strum_modes_solve(&undamped, (strum_plane)plane, modes, true, &spectrum, NULL);
+        status =
+            strum_modes_solve(&undamped, (strum_plane)plane, modes, true, &spectrum, fault);
         if (status == STRUM_OK)
-            status = strum_modes_verify(spectrum, &v, NULL);
+            status = strum_modes_verify(spectrum, &v, fault);
         *expected += v.modes_expected;
         strum_spectrum_free(&spectrum);
     }
@@ -544,19 +614,20 @@ static strum_status count_modes(const request *r, const strum_resonance *list, i
 }
 
 static strum_status write_verification(json_writer *json, solving *s,
-                                       const strum_resonance *list, int count)
+                                       const strum_resonance *list, int count,
+                                       strum_fault *fault)
 {
     const request *r = s->r;
     double tension = 0, displacement = 0;
     strum_status status = STRUM_OK;
     const int step = 1 + (frequency_count(r) - 1) / VERIFIED_MAX;
     for (int i = 0; i < frequency_count(r) && status == STRUM_OK; i += step)
-        status = compare_at(s, frequency_at(r, i), &tension, &displacement);
+        status = compare_at(s, frequency_at(r, i), &tension, &displacement, fault);
     for (size_t i = 0; i < r->profiles_at.count && status == STRUM_OK; i++)
-        status = compare_at(s, r->profiles_at.items[i], &tension, &displacement);
+        status = compare_at(s, r->profiles_at.items[i], &tension, &displacement, fault);
     int expected;
     if (status == STRUM_OK)
-        status = count_modes(r, list, count, &expected);
+        status = count_modes(r, list, count, &expected, fault);
     if (status != STRUM_OK)
         return status;
     json_key(json, "verification");
@@ -577,6 +648,7 @@ static bool answer_forced(const void *data, answer *a)
 {
     const request *r = data;
     solving s;
+    strum_fault fault = {0};
     bool good = solving_make(&s, r, a->problem);
     strum_resonance *list = calloc(2 * STRUM_MODES_MAX, sizeof *list);
     if (good && list == NULL) {
@@ -597,13 +669,13 @@ static bool answer_forced(const void *data, answer *a)
             strum_forced_resonances(s.forced, &r->motions[0], list, 2 * STRUM_MODES_MAX);
         strum_status status = write_curve(json, &s, a);
         if (status == STRUM_OK)
-            status = write_resonances(json, &s, list, count);
+            status = write_resonances(json, r, list, count, a);
         if (status == STRUM_OK && r->profiles_at.count > 0)
             status = write_profiles(json, &s);
         if (status == STRUM_OK && r->verify)
-            status = write_verification(json, &s, list, count);
+            status = write_verification(json, &s, list, count, &fault);
         if (status != STRUM_OK)
-            cable_refuse(&(strum_fault){0}, status, a->problem);
+            cable_refuse(&fault, status, a->problem);
         good = status == STRUM_OK;
     }
     json_close_object(json);
