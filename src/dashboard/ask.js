@@ -1,15 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Asking the daemon. */
 
+const TRIES = 6;
+
+function pause(ms, signal) {
+  return new Promise((done, fail) => {
+    const timer = setTimeout(done, ms);
+    signal?.addEventListener('abort', () => {
+      clearTimeout(timer);
+      fail(signal.reason);
+    }, { once: true });
+  });
+}
+
+/* A daemon that has too much to do says when to ask again: a slider that is dragged, or a sweep, then only takes longer. */
+async function send(path, request, signal, headers = {}) {
+  for (let tries = 1; ; tries += 1) {
+    const response = await fetch(path, {
+      method: 'POST', headers: { 'Content-Type': 'application/json', ...headers }, body: JSON.stringify(request), signal });
+    if (response.status !== 503 || tries === TRIES) return response;
+    await pause(1000 * Number(response.headers.get('Retry-After') ?? 1), signal);
+  }
+}
+
 /* {ok, answer | problem, text, ms, status}; throws only when given up or unreachable. */
 export async function ask(path, request, signal) {
   const began = performance.now();
-  const response = await fetch(path, {
-    method: 'POST',
-    headers: { 'Content-Type': 'application/json' },
-    body: JSON.stringify(request),
-    signal,
-  });
+  const response = await send(path, request, signal);
   const text = await response.text();
   const ms = performance.now() - began;
   let document;
@@ -26,12 +43,7 @@ export async function ask(path, request, signal) {
 /* The same for answers that take long: as Server-Sent Events, with `progress` called on the way. */
 export async function askLive(path, request, signal, progress) {
   const began = performance.now();
-  const response = await fetch(path, {
-    method: 'POST',
-    headers: { 'Content-Type': 'application/json', Accept: 'text/event-stream' },
-    body: JSON.stringify(request),
-    signal,
-  });
+  const response = await send(path, request, signal, { Accept: 'text/event-stream' });
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   const streams = response.headers.get('Content-Type')?.startsWith('text/event-stream');
   let text = '';

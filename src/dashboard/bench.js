@@ -80,18 +80,22 @@ export function makeBench(endpoint, first, keptFirst) {
       else refuse(result);
     } catch (fault) {
       if (controller !== mine) return;
-      status.textContent = fault.name === 'AbortError' ? 'Cancelled.' : 'The daemon cannot be reached.';
-      node.classList.add('stale');
+      stale(fault.name === 'AbortError' ? 'Cancelled.' : 'The daemon cannot be reached.');
     } finally {
       clearTimeout(waiting);
       if (controller === mine) busy.hidden = true;
     }
   }
 
+  function stale(words) {
+    node.classList.add('stale');
+    status.textContent = current ? `${words} What stands below answers the question before.` : words;
+  }
+
   function refuse({ problem, status: code }) {
     figures.stop();
     clearTimeout(settle);
-    node.classList.add('stale');
+    stale('');
     const errors = problem.errors ?? [];
     const tokens = (pointer) => pointer.split('/').slice(1).map((token) => token.replaceAll('~1', '/').replaceAll('~0', '~'));
     for (const { pointer, detail } of errors) form.fault(tokens(pointer), detail);
@@ -99,7 +103,6 @@ export function makeBench(endpoint, first, keptFirst) {
     trouble.replaceChildren(h('strong', {}, code === 422 ? 'There is no answer: ' : errors.length ? 'The form needs a change: ' : 'Refused: '));
     if (code === 422 || !errors.length) trouble.append(problem.detail ?? problem.title);
     else trouble.append(h('ul', {}, errors.map(({ pointer, detail }) => h('li', {}, h('code', {}, tokens(pointer).join('.') || 'request'), ` ${detail}`))));
-    status.textContent = '';
   }
 
   function show(request, { answer, text, ms }) {

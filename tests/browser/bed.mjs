@@ -43,8 +43,8 @@ export async function makeBed() {
     const page = await context.newPage();
     page.on('pageerror', (error) => faults.push(`${path}: ${error.stack}`));
     page.on('console', (message) => {
-      /* A refused question is the browser's to mention; the page explains it at the field. */
-      if (['error', 'warning'].includes(message.type()) && !/status of 4\d\d/.test(message.text())) faults.push(`${path}: ${message.text()}`);
+      /* A refused question is the browser's to mention; the page explains it at the field, or asks again where the daemon is busy. */
+      if (['error', 'warning'].includes(message.type()) && !/status of (4\d\d|503)/.test(message.text())) faults.push(`${path}: ${message.text()}`);
     });
     page.on('request', (request) => {
       if (!/^(data|blob):/.test(request.url()) && !request.url().startsWith(daemon.address)) faults.push(`${path}: asks ${request.url()}`);
@@ -73,12 +73,17 @@ export async function makeBed() {
   };
 }
 
-/* Serious findings of axe-core; evaluated, since the page's policy forbids foreign scripts. */
+/* Serious findings of axe-core, in light and in dark; evaluated, since the page's policy forbids foreign scripts. */
 export async function accessibility(page) {
   await page.evaluate(AXE);
-  const found = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ['violations'] }));
-  return found.violations.filter((one) => ['serious', 'critical'].includes(one.impact))
-    .map((one) => `${one.id}: ${one.nodes.slice(0, 3).map((node) => `${node.html} ${node.failureSummary}`).join('\n')}`);
+  const serious = [];
+  for (const colorScheme of ['dark', 'light']) {
+    await page.emulateMedia({ colorScheme });
+    const found = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ['violations'] }));
+    serious.push(...found.violations.filter((one) => ['serious', 'critical'].includes(one.impact))
+      .map((one) => `${colorScheme}: ${one.id}: ${one.nodes.slice(0, 3).map((node) => `${node.html} ${node.failureSummary}`).join('\n')}`));
+  }
+  return serious;
 }
 
 export async function answered(page) {

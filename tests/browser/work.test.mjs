@@ -2,7 +2,7 @@
 /* What a person does: asks, is put right, compares, cites, comes back by a link, by keyboard alone. */
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { answered, makeBed, saved, settled } from './bed.mjs';
+import { accessibility, answered, makeBed, saved, settled } from './bed.mjs';
 
 let bed;
 before(async () => { bed = await makeBed(); });
@@ -49,6 +49,7 @@ test('a faulty field is explained where it stands', async () => {
   assert.ok((await field(page, 'modes').getAttribute('aria-describedby')).includes(await modes.locator('.fault').getAttribute('id')));
   assert.match(await page.locator('[data-field="span_m"] .fault').textContent(), /number/);
   assert.equal(await page.locator('.trouble li').count(), 2);
+  assert.deepEqual(await accessibility(page), []);
   await field(page, 'modes').fill('3');
   await field(page, 'span_m').fill('100');
   await page.locator('.trouble').waitFor({ state: 'hidden' });
@@ -226,6 +227,23 @@ test('a slow answer can be cancelled', async () => {
   await page.unroute('**/v1/catenary/frequencies');
   await field(page, 'length_m').fill('121');
   await settled(page);
+  await page.close();
+  bed.noFaults();
+});
+
+test('a busy daemon is asked again', async () => {
+  const page = await bed.open('/');
+  await settled(page);
+  let refused = 0;
+  await page.route('**/v1/catenary/frequencies', (route) => {
+    if (refused >= 2) return route.continue();
+    refused += 1;
+    return route.fulfill({ status: 503, headers: { 'Retry-After': '0' }, contentType: 'application/problem+json', body: '{"title":"busy","status":503}' });
+  });
+  await field(page, 'length_m').fill('140');
+  await page.waitForFunction(() => decodeURIComponent(location.hash).includes('"length_m":140'));
+  assert.equal(refused, 2);
+  assert.equal(await page.locator('.trouble').isVisible(), false);
   await page.close();
   bed.noFaults();
 });

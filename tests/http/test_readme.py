@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md shows is what a newcomer gets: its requests are sent, its answers compared."""
+"""What README.md shows is what a newcomer gets: its requests are sent, its answers compared to the last digit shown."""
+import decimal
 import json
 import re
 
@@ -9,8 +10,11 @@ from conftest import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```(\w+)\n(.*?)```", README, re.S)
-CURLS = re.findall(r"curl -s --json '(.*?)' http://127\.0\.0\.1:8080(/\S+)", README)
-DIGITS = 1e-12  # the README prints 13 digits
+CURL = re.compile(r"curl -s --json '(.*?)'\s+http://127\.0\.0\.1:8080(/\S+)", re.S)
+CURLS = CURL.findall(README)
+# a question is followed by its answer
+SHOWN = [(CURL.findall(question)[-1], answer) for (_, question), (language, answer) in zip(BLOCKS, BLOCKS[1:])
+         if language == "json" and CURL.search(question)]
 
 
 def lies_in(shown, answer, where=""):
@@ -22,18 +26,36 @@ def lies_in(shown, answer, where=""):
         if len(shown) != len(answer):
             return [f"{where}: {len(answer)} items"]
         return [fault for k, (a, b) in enumerate(zip(shown, answer)) for fault in lies_in(a, b, f"{where}/{k}")]
-    same = abs(shown - answer) <= DIGITS * abs(shown) if isinstance(shown, float) else shown == answer
-    return [] if same else [f"{where}: {answer!r} instead of {shown!r}"]
+    if isinstance(shown, decimal.Decimal):
+        same = decimal.Decimal(repr(answer)).quantize(shown) == shown
+    else:
+        same = shown == answer
+    return [] if same else [f"{where}: {answer!r} instead of {shown!s}"]
 
 
-def test_the_first_answer_is_the_one_shown(strumd):
-    shown, = [json.loads(text) for language, text in BLOCKS if language == "json"]
-    body, path = CURLS[0]
-    assert lies_in(shown, strumd.post(json.loads(body), path=path).json()) == []
+def test_digits_count():
+    """A comparison that takes everything would pass below."""
+    shown = json.loads('{"a": [0.21620, {"b": "x"}]}', parse_float=decimal.Decimal)
+    assert lies_in(shown, {"a": [0.216204999, {"b": "x", "c": 1}]}) == []
+    for wrong in (0.2161949, 0.216206):
+        assert lies_in(shown, {"a": [wrong, {"b": "x"}]})
+    assert lies_in(shown, {"a": [0.2162, {"b": "y"}]}) and lies_in(shown, {"a": [0.2162]})
+
+
+def test_five_questions_have_answers():
+    assert len({path for (_, path), _ in SHOWN}) >= 5
+
+
+@pytest.mark.parametrize("question, shown", SHOWN, ids=[path for (_, path), _ in SHOWN])
+def test_an_answer_is_the_one_shown(strumd, question, shown):
+    body, path = question
+    answer = strumd.request("POST", path, data=body, headers={"Content-Type": "application/json"})
+    assert answer.status_code == 200, answer.text
+    assert lies_in(json.loads(shown, parse_float=decimal.Decimal), answer.json()) == []
 
 
 def test_the_faulty_request_is_told_of_its_faults(strumd):
-    body, path = CURLS[1]
+    body, path = CURLS[-1]
     answer = strumd.post(json.loads(body), path=path)
     assert answer.status_code == 400
     faults = {error["pointer"]: error["detail"] for error in answer.json()["errors"]}
@@ -53,7 +75,7 @@ def test_every_folder_of_the_table_is_there():
     assert [folder for folder in folders if not (ROOT / folder).is_dir()] == []
 
 
-@pytest.mark.parametrize("program", ["deploy/run", "tests/run", "tests/cases/run", "api/update"])
+@pytest.mark.parametrize("program", ["deploy/run", "tests/run", "tests/cases/run", "tests/cases/report", "api/update"])
 def test_programs_named_can_be_run(program):
     assert program in README
     assert (ROOT / program).stat().st_mode & 0o111
