@@ -197,12 +197,12 @@ class Reference:
 <p class="path">{" ".join(f"<code>{verb}</code>" for verb in verbs)} <code>{escape(path)}</code>
 <a class="action" href="/#{escape(path[3:])}">Try it</a></p>
 {prose(post["description"])}
-<h2 id="theory">Theory</h2>{prose(post["x-theory"])}
+<h2 id="theory">Theory</h2>{prose(post.get("x-theory", ""))}
 <p>Every answer names what it used in <code>meta.theory</code>; the one below: {escape(answered[0].get("meta", {}).get("theory", ""))}.</p>
 <h2 id="request">Request</h2>{self.groups(schema)}{self.table(schema, "Fields of the request", "default", "needed", True)}
-<h2 id="example">Worked example</h2><p>{escape(example["summary"])}.</p>
+<h2 id="example">Worked example</h2><p>{escape(example.get("summary", ""))}.</p>
 <pre tabindex="0"><code class="curl">curl -s --json '{escape(body, quote=False)}' {HOST}{escape(path)}</code></pre>
-<p>The tests send it and hold the answer against these values: {escape(example["description"])}.</p>
+<p>The tests send it and hold the answer against these values: {escape(example.get("description", ""))}.</p>
 <div class="wide" tabindex="0" role="region" aria-label="Expected values"><table class="expected"><thead><tr><th scope="col">in the answer</th>
 <th scope="col">expected</th></tr></thead><tbody>{expected}</tbody></table></div>
 <details><summary>The whole answer</summary>

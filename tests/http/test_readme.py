@@ -54,6 +54,13 @@ def test_an_answer_is_the_one_shown(strumd, question, shown):
     assert lies_in(json.loads(shown, parse_float=decimal.Decimal), answer.json()) == []
 
 
+def test_the_parabola_is_as_wrong_as_it_says(strumd):
+    said, = re.findall(r"(\d+) % too\s+high", README)
+    body, path = CURLS[0]
+    first = strumd.post({**json.loads(body), "compare": True}, path=path).json()["result"]["comparison"]["in_plane"][0]
+    assert round(100 * first["shallow_cable_difference"]) == int(said)
+
+
 def test_the_faulty_request_is_told_of_its_faults(strumd):
     body, path = CURLS[-1]
     answer = strumd.post(json.loads(body), path=path)
