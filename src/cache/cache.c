@@ -213,7 +213,7 @@ void cache_land(cache *c, flight *f, entry *outcome)
     if (outcome && outcome->status == 200) {
         if (!outcome->transient)
             store(c, outcome);
-        c->count.solves++;
+        c->count.solves += !outcome->shared;
     }
     spot *l = outcome ? spot_find(c, SPOT_CANONICAL, &outcome->key) : NULL;
     for (waiter *w = f->waiters; w; w = w->next) {
