@@ -9,15 +9,17 @@
 #include "http/reply.h"
 #include "http/server.h"
 
-/* A flight that a worker shall solve. */
+/* A flight that a worker shall solve, or only look for in the shared store. */
 typedef struct task {
     job job;
     server *server;
-    asking *asking; /* owned */
+    asking *asking; /* owned; NULL: only look */
     cache_key key;
     flight *flight;
     double given_us;
 } task;
+
+#define NOT_STORED "no answer is stored under this key (any more); ask its question again"
 
 entry *ask_refusal(const cache_key *key, const problem *why)
 {
@@ -56,17 +58,55 @@ static void tell(watch *w, const progress *so_far)
     cache_tell(t->cache, t->flight, so_far);
 }
 
+/* What takes longer than this goes to a worker, and may be in the shared store. */
+static bool is_costly(const server *s, const asking *a)
+{
+    return asking_cost_us(a) >= s->settings->inline_us;
+}
+
+static entry *find_shared(server *s, const cache_key *key)
+{
+    const double began = clock_us();
+    entry *e = shared_find(s->shared, key);
+    if (e)
+        e->solve_us = clock_us() - began;
+    return e;
+}
+
 void ask_fly(server *s, const asking *a, const cache_key *key, flight *f, double given_us)
 {
     const double queue_us = given_us > 0 ? clock_us() - given_us : 0;
     telling t = {
         {.cancel = flight_cancel(f), .progress = tell}, .cache = s->cache, .flight = f};
-    entry *e = entry_solve(a, key, &t.watch);
-    if (e) {
-        metrics_solve(s->metrics, e->status, e->solve_us, t.steps);
+    const bool share = is_costly(s, a);
+    entry *e = share && !*t.watch.cancel ? find_shared(s, key) : NULL;
+    if (!e) {
+        e = entry_solve(a, key, &t.watch);
+        if (e)
+            metrics_solve(s->metrics, e->status, e->solve_us, t.steps);
+    }
+    const bool lasting = e && e->status == 200 && !e->transient;
+    if (e)
         e->queue_us = queue_us;
-        if (e->status == 200 && !e->transient)
-            reply_make_face(s, e);
+    if (lasting)
+        reply_make_face(s, e);
+    cache_land(s->cache, f, e);
+    if (lasting && share && !e->shared)
+        shared_keep(s->shared, e);
+    entry_unref(e);
+}
+
+/* As ask_fly, for who asks by the key alone. */
+static void look(server *s, const cache_key *key, flight *f)
+{
+    entry *e = find_shared(s, key);
+    if (e) {
+        reply_make_face(s, e);
+    } else {
+        problem why = {0};
+        problem_set(&why, 404, NOT_STORED);
+        e = ask_refusal(key, &why);
+        problem_clear(&why);
     }
     cache_land(s->cache, f, e);
     entry_unref(e);
@@ -75,7 +115,10 @@ void ask_fly(server *s, const asking *a, const cache_key *key, flight *f, double
 static void task_work(job *j)
 {
     task *t = (task *)(void *)j;
-    ask_fly(t->server, t->asking, &t->key, t->flight, t->given_us);
+    if (t->asking)
+        ask_fly(t->server, t->asking, &t->key, t->flight, t->given_us);
+    else
+        look(t->server, &t->key, t->flight);
     asking_free(t->asking);
     free(t);
 }
@@ -173,7 +216,7 @@ static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *
     return MHD_YES;
 }
 
-/* Hands the flight to the crew; takes over `a`. */
+/* Hands the flight to the crew; takes over `a` (NULL: only look for it in the store). */
 static enum MHD_Result give_to_crew(peer *p, asking *a, const cache_key *key, flight *f)
 {
     server *s = p->server;
@@ -229,7 +272,7 @@ static enum MHD_Result solve(peer *p, asking *a)
     waiter *w = wants_events(r) ? events_open(p) : &r->waiter;
     if (w && key_of_asking(a, &r->canonical, &key))
         turn = cache_enter(s->cache, &key, w, &hit, &lead);
-    if (turn == TURN_LEAD && asking_cost_us(a) >= s->settings->inline_us)
+    if (turn == TURN_LEAD && is_costly(s, a))
         return give_to_crew(p, a, &key, lead);
     if (turn == TURN_LEAD)
         ask_fly(s, a, &key, lead, 0);
@@ -297,25 +340,52 @@ static enum MHD_Result ask_by_body(peer *p)
     return solve_read(p, a, began, &why);
 }
 
+/* What was waited for is there. */
+static bool has_waited(peer *p)
+{
+    if (atomic_load_explicit(&p->phase, memory_order_relaxed) != PEER_WAITING)
+        return false;
+    peer_enter(p, PEER_READING, p->server->settings->request_timeout_s);
+    return true;
+}
+
 enum MHD_Result ask_endpoint(peer *p)
 {
-    if (atomic_load_explicit(&p->phase, memory_order_relaxed) == PEER_WAITING) {
-        peer_enter(p, PEER_READING, p->server->settings->request_timeout_s);
+    if (has_waited(p))
         return reply_outcome(p);
-    }
     const bool has_body = p->request.method & (METHOD_POST | METHOD_QUERY);
     return has_body ? ask_by_body(p) : ask_by_query(p);
+}
+
+/* A worker looks in the store. In a flight of its own: who asks the question waits for more
+ * than to hear that no answer is there. */
+static enum MHD_Result ask_store(peer *p, const cache_key *key)
+{
+    request *r = &p->request;
+    static const char path[] = "/v1/results/";
+    const key_part parts[] = {{path, sizeof path}, {key, sizeof *key}};
+    entry *hit = NULL;
+    flight *lead = NULL;
+    cache_turn turn = TURN_NONE;
+    r->waiter.wake = wake;
+    atomic_store(&r->handover, HANDOVER_NONE);
+    if (key_of_parts(parts, 2, &r->waiter.raw))
+        turn = cache_enter(p->server->cache, &r->waiter.raw, &r->waiter, &hit, &lead);
+    if (turn == TURN_LEAD)
+        return give_to_crew(p, NULL, key, lead);
+    r->collapsed = turn == TURN_JOIN;
+    return r->collapsed ? wait_outcome(p) : reply_entry(p, hit, REPLY_HIT);
 }
 
 enum MHD_Result ask_result(peer *p)
 {
     cache_key key;
+    if (has_waited(p))
+        return reply_outcome(p);
     if (!key_parse(p->request.route.rest, &key))
         return reply_refusal(p, 400, "a key is 64 hexadecimal digits in lower case");
     entry *e = cache_find(p->server->cache, CACHE_CANONICAL, &key);
-    if (!e)
-        return reply_refusal(p, 404,
-                             "no answer is stored under this key (any more); ask its question "
-                             "again");
-    return reply_entry(p, e, REPLY_HIT);
+    if (!e && p->server->shared)
+        return ask_store(p, &key);
+    return e ? reply_entry(p, e, REPLY_HIT) : reply_refusal(p, 404, NOT_STORED);
 }

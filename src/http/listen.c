@@ -14,8 +14,7 @@
 /* A burst of new connections waits here; the kernel's own limit cuts it. */
 #define LISTEN_BACKLOG 1024
 
-/* "[host]:port" or "host:port". */
-static bool split(const char *where, char host[256], char port[16])
+bool listen_split(const char *where, char host[256], char port[16])
 {
     const char *colon = strrchr(where, ':');
     if (!colon || colon == where || !colon[1] || strlen(colon + 1) > 5 ||
@@ -122,7 +121,7 @@ bool listen_open(const char *where, bool allow_any, listen_at *at, char fault[25
     *at = (listen_at){.fd = -1};
     if (is_passed(&passed))
         return take_passed(passed, allow_any, at, fault);
-    if (!split(where, host, port)) {
+    if (!listen_split(where, host, port)) {
         snprintf(fault, 256, "listen must be address:port or [address]:port, not \"%.100s\"",
                  where);
         return false;

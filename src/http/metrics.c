@@ -121,6 +121,21 @@ static void write_latency(const metrics *m, text *out)
     }
 }
 
+static void write_store(shared *store, text *out)
+{
+    const shared_counters c = shared_count(store);
+    value(out, "store_hits_total", "counter", "Answers found in the shared store.", c.hits);
+    value(out, "store_misses_total", "counter", "Answers that the shared store did not have.",
+          c.misses);
+    value(out, "store_writes_total", "counter", "Answers put into the shared store.", c.writes);
+    value(out, "store_errors_total", "counter",
+          "Commands that the shared store did not answer in time, or refused.", c.errors);
+    value(out, "store_rejected_total", "counter",
+          "Values of the shared store that were damaged or forged, and not used.", c.rejected);
+    value(out, "store_away", "gauge", "1: the shared store has failed and is left alone.",
+          c.away);
+}
+
 void metrics_write(server *s, text *out)
 {
     const cache_counters c = cache_count(s->cache);
@@ -129,8 +144,9 @@ void metrics_write(server *s, text *out)
     write_latency(s->metrics, out);
     value(out, "response_bytes_total", "counter", "Bytes of answers' bodies.",
           s->metrics->bytes);
-    value(out, "cache_hits_total", "counter", "Requests answered from the store.", c.hits);
-    value(out, "cache_misses_total", "counter", "Requests that began to solve.", c.misses);
+    value(out, "cache_hits_total", "counter", "Requests answered from memory.", c.hits);
+    value(out, "cache_misses_total", "counter", "Requests whose answer was not in memory.",
+          c.misses);
     value(out, "cache_joins_total", "counter",
           "Requests that waited for an equal one under way.", c.joins);
     value(out, "solves_total", "counter", "Answers computed.", c.solves);
@@ -148,8 +164,12 @@ void metrics_write(server *s, text *out)
           c.cancels);
     value(out, "cache_evictions_total", "counter", "Answers dropped for room.", c.evictions);
     value(out, "cache_entries", "gauge", "Answers stored.", c.entries);
-    value(out, "cache_bytes", "gauge", "Memory of the store, bookkeeping included.", c.bytes);
-    value(out, "cache_limit_bytes", "gauge", "Most memory the store may take.", c.cap);
+    value(out, "cache_bytes", "gauge", "Memory of stored answers, bookkeeping included.",
+          c.bytes);
+    value(out, "cache_limit_bytes", "gauge", "Most memory that stored answers may take.",
+          c.cap);
+    if (s->shared)
+        write_store(s->shared, out);
     value(out, "flights", "gauge", "Answers being computed or waiting for it.", c.flights);
     value(out, "workers", "gauge", "Worker threads.", (uint64_t)w.workers);
     value(out, "workers_busy", "gauge", "Workers that solve.", w.working);

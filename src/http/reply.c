@@ -203,9 +203,23 @@ static bool already_has(const char *list, const char *hex)
 static void timing(const peer *p, struct MHD_Response *response, const entry *e)
 {
     char value[128];
-    snprintf(value, sizeof value, "read;dur=%.3f, queue;dur=%.3f, solve;dur=%.3f",
-             p->request.read_us / 1000, e->queue_us / 1000, e->solve_us / 1000);
+    snprintf(value, sizeof value, "read;dur=%.3f, queue;dur=%.3f, %s;dur=%.3f",
+             p->request.read_us / 1000, e->queue_us / 1000, e->shared ? "store" : "solve",
+             e->solve_us / 1000);
     header(response, "Server-Timing", value);
+}
+
+/* RFC 9211: the cache nearest to where answers are made comes first. */
+static void cache_status(struct MHD_Response *response, const entry *e, reply_source source)
+{
+    char value[64];
+    snprintf(value, sizeof value, "%sstrum; %s",
+             e->shared && source != REPLY_HIT ? "strum-store; hit, " : "",
+             source == REPLY_HIT         ? "hit"
+             : source == REPLY_COLLAPSED ? "fwd=miss; collapsed"
+             : e->stored                 ? "fwd=miss; stored"
+                                         : "fwd=miss");
+    header(response, "Cache-Status", value);
 }
 
 enum MHD_Result reply_entry(peer *p, entry *e, reply_source source)
@@ -236,11 +250,7 @@ enum MHD_Result reply_entry(peer *p, entry *e, reply_source source)
         header(response, "Content-Type", good ? JSON_TYPE : PROBLEM_TYPE);
     if (good) {
         describe(p, response, e);
-        header(response, "Cache-Status",
-               source == REPLY_HIT         ? "strum; hit"
-               : source == REPLY_COLLAPSED ? "strum; fwd=miss; collapsed"
-               : e->stored                 ? "strum; fwd=miss; stored"
-                                           : "strum; fwd=miss");
+        cache_status(response, e, source);
         if (source != REPLY_HIT)
             timing(p, response, e);
     } else {

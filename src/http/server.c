@@ -10,6 +10,7 @@
 #include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include "http/clock.h"
@@ -145,6 +146,38 @@ static struct MHD_Daemon *daemon_start(server *s)
         NULL, on_request, s, MHD_OPTION_ARRAY, options, MHD_OPTION_END);
 }
 
+static void note_store(bool away, const char *why)
+{
+    if (away)
+        log_say("warning", "store away", "the shared store is left alone for a while: %s", why);
+    else
+        log_say("info", "store", "the shared store answers");
+}
+
+static shared *open_store(const settings *set, int workers, char fault[256])
+{
+    const bool local = strncmp(set->store, "unix:/", 6) == 0;
+    const char *path = local ? set->store + 5 : "";
+    char host[256] = "", port[16];
+    if (local ? strlen(path) >= sizeof((struct sockaddr_un){0}).sun_path
+              : !listen_split(set->store, host, port)) {
+        snprintf(fault, 256,
+                 "store must be address:port, [address]:port or unix:/path, not "
+                 "\"%.100s\"",
+                 set->store);
+        return NULL;
+    }
+    return shared_new(&(shared_options){.host = host,
+                                        .port = local ? path : port,
+                                        .secret_file = set->store_secret_file,
+                                        .password_file = set->store_password_file,
+                                        .wait_ms = (int)set->store_timeout_ms,
+                                        .expiry_s = set->store_expiry_s,
+                                        .connections = workers,
+                                        .turned = note_store},
+                      fault);
+}
+
 bool server_start(server *s, const settings *set, char fault[256])
 {
     *s = (server){.settings = set, .at.fd = -1};
@@ -155,7 +188,10 @@ bool server_start(server *s, const settings *set, char fault[256])
     raise_file_limit(set->connections);
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     const int workers = set->workers ? (int)set->workers : cores > 1 ? (int)cores : 1;
-    s->queue_depth = set->queue_depth ? (size_t)set->queue_depth : QUEUE_FOR_EACH * (size_t)workers;
+    s->queue_depth =
+        set->queue_depth ? (size_t)set->queue_depth : QUEUE_FOR_EACH * (size_t)workers;
+    if (*set->store && !(s->shared = open_store(set, workers, fault)))
+        return false;
     if (getrandom(&s->id_prefix, sizeof s->id_prefix, GRND_NONBLOCK) < 0)
         s->id_prefix = (uint32_t)clock_us();
     snprintf(fault, 256, "out of memory or threads");
@@ -278,6 +314,7 @@ void server_free(server *s)
     crew_free(s->crew);
     peers_free(s->peers);
     cache_free(s->cache);
+    shared_free(s->shared);
     metrics_free(s->metrics);
     access_free(s->access);
     if (s->no_memory)

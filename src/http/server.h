@@ -5,7 +5,7 @@
 
 #include <microhttpd.h>
 
-#include "cache/cache.h"
+#include "cache/shared.h"
 #include "http/access.h"
 #include "http/crew.h"
 #include "http/listen.h"
@@ -19,6 +19,7 @@ typedef struct server {
     struct MHD_Daemon *daemon;
     struct MHD_Response *no_memory; /* sent when nothing else can be made */
     cache *cache;
+    shared *shared;      /* NULL: no store is shared */
     access_list *access; /* NULL: everybody may ask */
     crew *crew;
     peers *peers;
@@ -29,8 +30,8 @@ typedef struct server {
     uint32_t id_prefix; /* of request ids, so that two runs' ids differ */
     atomic_uint id_next;
     atomic_uint_fast64_t logged; /* requests that went well and might be logged */
-    _Atomic bool draining; /* no new connections; answers close theirs */
-    _Atomic bool stopping; /* nobody may wait any more */
+    _Atomic bool draining;       /* no new connections; answers close theirs */
+    _Atomic bool stopping;       /* nobody may wait any more */
 } server;
 
 /* Binds and gets all ready. False with a sentence in `fault`; end with server_free in either

@@ -48,6 +48,18 @@ static const setting table[] = {
      "what is estimated to take less (microseconds) is solved without handing it to a worker"},
     {"cache_bytes", SETTING_BYTES, AT(cache_bytes), 0, 1e12, "64M",
      "most memory for stored answers, their bookkeeping included; 0 stores none"},
+    {"store", SETTING_TEXT, AT(store), 0, 0, "",
+     "address:port or unix:/path of a Redis server, as a second level of stored answers that "
+     "several daemons share; empty: none"},
+    {"store_timeout_ms", SETTING_NUMBER, AT(store_timeout_ms), 1, 60000, "20",
+     "most time a worker waits for the store, connecting included; then it solves"},
+    {"store_expiry_s", SETTING_COUNT, AT(store_expiry_s), 0, 1e9, "2592000",
+     "seconds that the store keeps an answer; 0: as long as it likes"},
+    {"store_secret_file", SETTING_TEXT, AT(store_secret_file), 0, 0, "",
+     "file of a secret that the daemons share, 16 characters or more, so that nobody else who "
+     "can write to the store can forge an answer"},
+    {"store_password_file", SETTING_TEXT, AT(store_password_file), 0, 0, "",
+     "file of the password that the store asks for; it is sent unencrypted"},
     {"body_bytes", SETTING_BYTES, AT(body_bytes), 256, 64 << 20, "64K",
      "largest request body; a larger one gets 413"},
     {"json_depth", SETTING_COUNT, AT(json_depth), 1, 256, "16",

@@ -21,6 +21,9 @@ typedef struct settings {
     bool allow_non_loopback;
     int64_t event_threads, workers, queue_depth;
     double inline_us;
+    char *store, *store_secret_file, *store_password_file;
+    double store_timeout_ms;
+    int64_t store_expiry_s;
     int64_t cache_bytes, body_bytes, json_depth, json_values;
     int64_t batches, batch_items, batch_body_bytes;
     int64_t connections, connection_memory_bytes;

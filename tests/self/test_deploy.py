@@ -67,6 +67,8 @@ def test_the_service_waits_for_the_drain():
 
 def test_settings_are_known():
     check_settings(None, "--config", str(DEPLOY / "systemd/strumd.conf"))
+    for drop_in in (DEPLOY / "systemd/strumd.service.d").glob("*.conf"):
+        check_settings(dict(re.findall(r"^(?:# )?Environment=(STRUM_\w+)=(\S+)", drop_in.read_text(), re.M)))
     container = load("deployment.yaml")["spec"]["template"]["spec"]["containers"][0]
     check_settings({entry["name"]: entry["value"] for entry in container["env"]})
     dockerfile = (DEPLOY / "container/Dockerfile").read_text()
