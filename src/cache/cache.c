@@ -2,9 +2,11 @@
 #include "cache/stored.h"
 
 #include <pthread.h>
+#include <assert.h>
+#include <sodium/crypto_shorthash_siphash24.h>
+#include <sodium/randombytes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/random.h>
 
 struct flight {
     spot spot;
@@ -18,6 +20,7 @@ struct cache {
     spot **buckets;
     unsigned shift;  /* 64 - log2(number of buckets) */
     uint64_t spread; /* odd and secret: nobody can choose bodies that share a bucket */
+    unsigned char secret[crypto_shorthash_siphashx24_KEYBYTES]; /* of cache_key_of_body */
     struct stored *newest, *oldest;
     cache_counters count;
 };
@@ -138,6 +141,16 @@ entry *cache_find(cache *c, cache_level level, const cache_key *key)
     }
     pthread_mutex_unlock(&c->lock);
     return found;
+}
+
+void cache_key_of_body(const cache *c, const void *owner, const char *body, size_t size,
+                       cache_key *key)
+{
+    const uint64_t rest[2] = {(uintptr_t)owner, size};
+    static_assert(sizeof rest + crypto_shorthash_siphashx24_BYTES == sizeof key->bytes,
+                  "the hash and what else tells bodies apart fill a key");
+    crypto_shorthash_siphashx24(key->bytes, (const unsigned char *)body, size, c->secret);
+    memcpy(key->bytes + crypto_shorthash_siphashx24_BYTES, rest, sizeof rest);
 }
 
 /* ---- single flight ---- */
@@ -265,8 +278,8 @@ cache *cache_new(size_t cap)
     }
     c->buckets = buckets;
     c->shift = 64 - bits;
-    if (getrandom(&c->spread, sizeof c->spread, GRND_NONBLOCK) != sizeof c->spread)
-        c->spread = (uint64_t)(uintptr_t)c * 0x9E3779B97F4A7C15u; /* too early in the boot */
+    randombytes_buf(&c->spread, sizeof c->spread);
+    randombytes_buf(c->secret, sizeof c->secret);
     c->spread |= 1;
     c->count.cap = cap;
     c->count.bytes = sizeof *c + (sizeof *buckets << bits);

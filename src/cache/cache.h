@@ -61,6 +61,12 @@ typedef enum cache_level { CACHE_CANONICAL, CACHE_RAW } cache_level;
 /* The stored answer of a key, referenced for the caller, or NULL. */
 entry *cache_find(cache *c, cache_level level, const cache_key *key);
 
+/* The raw key of a body that asks `owner` (an endpoint; NULL: as an item of a batch):
+ * SipHash-2-4 under a secret of this cache, so that nobody can make two bodies share one. A
+ * fifth of what SHA-256 takes, on the way of every stored answer. */
+void cache_key_of_body(const cache *c, const void *owner, const char *body, size_t size,
+                       cache_key *key);
+
 /* ---- single flight ---- */
 
 typedef struct flight flight;

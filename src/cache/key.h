@@ -3,7 +3,7 @@
  * Keys: SHA-256 of what was asked. A collision would take about 2^128 work, so equal keys mean
  * equal requests and nothing is compared. Two levels live side by side: the canonical key names
  * a set of parameters (and is public: ETag, /v1/results/{key}); the raw key names the very
- * bytes of a body, and finds a stored answer without reading them.
+ * bytes of a body or query, and finds a stored answer without reading them.
  */
 #ifndef CACHE_KEY_H
 #define CACHE_KEY_H

@@ -183,15 +183,6 @@ static enum MHD_Result wait_outcome(peer *p)
 
 /* ---- the steps ---- */
 
-/* The key of a body's bytes. A body and a query string never share one: the number of parts
- * differs. */
-static bool body_key(const request *r, cache_key *key)
-{
-    const char *path = r->route.endpoint->path;
-    const key_part parts[] = {{path, strlen(path)}, {r->body.data, r->body.size}};
-    return key_of_parts(parts, 2, key);
-}
-
 #define QUERY_PAIRS_MAX 64
 
 typedef struct query_string {
@@ -327,8 +318,8 @@ static enum MHD_Result ask_by_body(peer *p)
 {
     request *r = &p->request;
     const settings *set = p->server->settings;
-    if (!body_key(r, &r->waiter.raw))
-        return reply_entry(p, NULL, REPLY_HIT);
+    cache_key_of_body(p->server->cache, r->route.endpoint, r->body.data, r->body.size,
+                      &r->waiter.raw);
     entry *hit = cache_find(p->server->cache, CACHE_RAW, &r->waiter.raw);
     if (hit)
         return reply_hit(p, hit);

@@ -168,14 +168,9 @@ static void solve(slot *s, const asking *a)
 
 static void work_item(slot *s)
 {
-    static const char path[] = "/v1/batch";
     batch *b = s->batch;
-    const key_part parts[] = {{path, sizeof path}, {s->bytes, s->size}};
     s->waiter = (waiter){.wake = wake};
-    if (!key_of_parts(parts, 2, &s->waiter.raw)) {
-        finish(s, NULL);
-        return;
-    }
+    cache_key_of_body(b->server->cache, NULL, s->bytes, s->size, &s->waiter.raw);
     entry *hit = cache_find(b->server->cache, CACHE_RAW, &s->waiter.raw);
     if (hit) {
         finish(s, hit);

@@ -318,6 +318,29 @@ static void an_answer_is_found_by_the_bytes_of_its_last_bodies(void **state)
     cache_free(c);
 }
 
+static void a_body_has_a_key_of_its_own(void **state)
+{
+    (void)state;
+    cache *c = cache_new(1000000), *other = cache_new(1000000);
+    const int owners[2] = {0};
+    cache_key keys[6];
+    cache_key_of_body(c, &owners[0], "abc", 3, &keys[0]);
+    cache_key_of_body(c, &owners[1], "abc", 3, &keys[1]);
+    cache_key_of_body(c, &owners[0], "abd", 3, &keys[2]);
+    cache_key_of_body(c, &owners[0], "abc", 2, &keys[3]);
+    cache_key_of_body(c, NULL, NULL, 0, &keys[4]);
+    /* another cache has another secret: what collides in one is nothing to the other */
+    cache_key_of_body(other, &owners[0], "abc", 3, &keys[5]);
+    for (size_t i = 0; i < 6; i++)
+        for (size_t j = 0; j < i; j++)
+            assert_memory_not_equal(&keys[i], &keys[j], sizeof keys[i]);
+    cache_key again;
+    cache_key_of_body(c, &owners[0], "abcd", 3, &again);
+    assert_memory_equal(&again, &keys[0], sizeof again);
+    cache_free(c);
+    cache_free(other);
+}
+
 /* ---- single flight ---- */
 
 static void refusals_reach_all_and_are_not_kept(void **state)
@@ -547,6 +570,7 @@ int main(void)
         cmocka_unit_test(what_is_larger_than_the_cache_is_answered_and_not_kept),
         cmocka_unit_test(random_use_follows_the_model),
         cmocka_unit_test(an_answer_is_found_by_the_bytes_of_its_last_bodies),
+        cmocka_unit_test(a_body_has_a_key_of_its_own),
         cmocka_unit_test(refusals_reach_all_and_are_not_kept),
         cmocka_unit_test(without_memory_all_are_woken_with_nothing),
         cmocka_unit_test(the_last_to_give_up_cancels),
