@@ -42,6 +42,8 @@ typedef struct strum_absorber_problem {
     /* Told now and then (may be NULL): evaluations so far, best damping ratio so far, where.
      * False ends the search with what it has. */
     bool (*progress)(void *context, long evaluations, double best, const double *values);
+    /* Asked now and then within an evaluation (may be NULL): true ends it, and the search. */
+    bool (*cancelled)(void *context);
 } strum_absorber_problem;
 
 typedef struct strum_absorber_local {
@@ -59,7 +61,8 @@ typedef struct strum_absorber_optimum {
     bool complete; /* false: the budget or `progress` ended it */
 } strum_absorber_optimum;
 
-/* STRUM_ERR_IMPOSSIBLE when no trial gave a chain with a mode to damp. */
+/* STRUM_ERR_IMPOSSIBLE when no trial gave a chain with a mode that is damped, STRUM_ERR_CANCELLED
+ * when it was stopped before. */
 strum_status strum_absorber_optimize(const strum_absorber_problem *problem,
                                      strum_absorber_optimum *optimum, strum_fault *fault);
 
@@ -70,8 +73,9 @@ strum_status strum_absorber_roots(const strum_absorber_problem *problem, const d
 /* The least damped of them: index into roots->roots (ties: the first), -1 for none. */
 int strum_absorber_limiting(const strum_taut_roots *roots);
 
-/* How the search spaces a variable, share 0..1 of its range: by the logarithm where it spans
- * more than a factor of 30, from 0 by orders down to 1e-6 of its range, evenly otherwise. */
+/* How a sweep spaces a variable, share 0..1 of its range: by the logarithm where it spans
+ * more than a factor of 30, from 0 by orders down to 1e-6 of its range, evenly otherwise. The
+ * search does likewise, but from 0 it looks down to 1e-15 of the range. */
 double strum_absorber_scale(double lowest, double highest, double share);
 
 /* ---- closed forms of a tuned mass on mode n of a uniform taut cable ---- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/absorber.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,10 +30,22 @@ double strum_absorber_scale(double low, double high, double share)
     return low + (high - low) * share;
 }
 
+/* From 0: the upper third of the share spans two orders, the whole fifteen, so that neither an
+ * optimum near the bound nor one far below it is passed over. */
+static double from_zero(double high, double share)
+{
+    const double rest = 1 - share, least = 1e-15;
+    const double orders = 15 * rest * (0.25 + 0.75 * rest * rest);
+    return high * (pow(10, -orders) - least) / (1 - least);
+}
+
 static void values_of(const strum_absorber_problem *p, const double *t, double *values)
 {
-    for (int i = 0; i < p->variables; i++)
-        values[i] = strum_absorber_scale(p->lowest_values[i], p->highest_values[i], t[i]);
+    for (int i = 0; i < p->variables; i++) {
+        const double low = p->lowest_values[i], high = p->highest_values[i];
+        values[i] = low == 0 && t[i] > 0 && t[i] < 1 ? from_zero(high, t[i])
+                                                     : strum_absorber_scale(low, high, t[i]);
+    }
 }
 
 static strum_status roots_of(const strum_absorber_problem *p, const strum_taut *chain,
@@ -42,7 +55,9 @@ static strum_status roots_of(const strum_absorber_problem *p, const strum_taut *
     strum_taut_query query = {.numbers = p->modes,
                               .count = p->modes != NULL ? p->mode_count : 0,
                               .lowest = p->lowest,
-                              .highest = p->highest};
+                              .highest = p->highest,
+                              .cancelled = p->cancelled,
+                              .context = p->context};
     if (p->modes == NULL) {
         /* whatever decays faster than twice its own frequency limits nothing */
         query.max_decay = 2 * p->highest;
@@ -92,9 +107,10 @@ void search_count(search *s)
 
 static void note_status(search *s, strum_status status)
 {
-    if (status == STRUM_ERR_MEMORY || status == STRUM_ERR_CANCELLED ||
-        status == STRUM_ERR_INTERNAL)
+    if (status == STRUM_ERR_MEMORY || status == STRUM_ERR_INTERNAL)
         s->broken = status;
+    if (status == STRUM_ERR_CANCELLED)
+        s->stopped = true;
 }
 
 strum_taut *search_chain(search *s, const double *t)
@@ -136,6 +152,8 @@ double search_trial(search *s, const double *t)
     if (roots != NULL) {
         const int limiting = strum_absorber_limiting(roots);
         objective = limiting >= 0 ? damping_ratio(&roots->roots[limiting]) : 0;
+        s->answered = true;
+        s->met = s->met || limiting >= 0;
         strum_taut_roots_free(&s->last);
         s->last = roots;
     }
@@ -308,6 +326,26 @@ static void run_several(search *s, strum_absorber_optimum *out)
     s->stopped = s->stopped || unconfirmed;
 }
 
+/* Why there is none. */
+static strum_status no_optimum(const search *s)
+{
+    if (s->stopped && s->evaluations < s->limit)
+        return fault_set(s->fault, STRUM_ERR_CANCELLED,
+                         "the search was stopped before any trial damped every mode");
+    if (!s->answered) {
+        const strum_fault last = s->fault != NULL ? *s->fault : (strum_fault){0};
+        return fault_set(s->fault, STRUM_ERR_IMPOSSIBLE,
+                         "no trial within the bounds could be answered; the last one: %.200s",
+                         last.reason);
+    }
+    return fault_set(s->fault, STRUM_ERR_IMPOSSIBLE,
+                     s->met ? "nothing within the bounds damps every mode that was asked for "
+                              "(%ld trials)"
+                            : "within the bounds no trial has an oscillating mode that was "
+                              "asked for (%ld trials)",
+                     s->evaluations);
+}
+
 strum_status strum_absorber_optimize(const strum_absorber_problem *p,
                                      strum_absorber_optimum *out, strum_fault *fault)
 {
@@ -326,13 +364,11 @@ strum_status strum_absorber_optimize(const strum_absorber_problem *p,
     if (s.broken != STRUM_OK)
         return fault_set(fault, s.broken, "%s", strum_status_text(s.broken));
     if (!(s.best > 1e-12)) /* a mode that is not reached has rounding for a decay */
-        return fault_set(
-            fault, STRUM_ERR_IMPOSSIBLE,
-            "nothing within the bounds damps every mode that was asked for (%ld trials)",
-            s.evaluations);
+        return no_optimum(&s);
     values_of(p, s.best_at, out->values);
     out->damping_ratio = s.best;
-    out->loss_ratio = s.best / sqrt((1 - s.best) * (1 + s.best));
+    const double below = fmax(1 - s.best, DBL_EPSILON / 2); /* all but overdamped */
+    out->loss_ratio = s.best / sqrt(below * (1 + s.best));
     return STRUM_OK;
 }
 

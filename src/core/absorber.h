@@ -14,6 +14,7 @@ typedef struct search {
     strum_status broken; /* an error that ends everything */
     strum_fault *fault;
     strum_taut_roots *last; /* of the trial before: guesses for the next */
+    bool answered, met;     /* some trial gave roots; some had a mode among them */
 } search;
 
 static inline bool search_goes_on(const search *s)

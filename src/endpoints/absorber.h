@@ -52,7 +52,9 @@ typedef struct absorber_solving {
     bool late;
 } absorber_solving;
 
-/* Index of a declared variable, or -1. */
+/* From now on the problem may take so many seconds; `late` says whether it took more. */
+void absorber_allow(absorber_solving *s, double seconds);
+/* Index of a declared variable (the first of that name), or -1. */
 int absorber_variable_index(const absorber_request *r, const char *name);
 
 /* The result; false with a->problem set. */

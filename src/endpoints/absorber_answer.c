@@ -242,21 +242,29 @@ static strum_status write_sweep(json_writer *json, absorber_solving *s,
     if (!field_given(&absorber_schema, r, "sweep"))
         return STRUM_OK;
     const int at = absorber_variable_index(r, r->sweep.variable.text);
-    const int64_t points = r->sweep.points;
+    int64_t points = r->sweep.points;
     swept *rows = calloc((size_t)points, sizeof *rows);
     strum_status status = rows == NULL ? STRUM_ERR_MEMORY : STRUM_OK;
     double values[STRUM_ABSORBER_VARIABLES_MAX];
     size_t all = 1;
     memcpy(values, best->values, sizeof values);
+    absorber_allow(s, r->time_limit_s);
     for (int64_t i = 0; i < points && status == STRUM_OK; i++) {
-        rows[i].value = values[at] =
-            strum_absorber_scale(r->low[at], r->high[at], (double)i / (double)(points - 1));
+        rows[i].value = values[at] = strum_absorber_scale(
+            r->low[at], r->high[at], (double)i / (double)(r->sweep.points - 1));
         status = strum_absorber_roots(&s->problem, values, &rows[i].roots, NULL);
         all += rows[i].roots != NULL ? rows[i].roots->count : 0;
         if (answer_cancelled(s->a))
             status = STRUM_ERR_CANCELLED;
         else if (status != STRUM_ERR_MEMORY)
             status = STRUM_OK; /* a value without a chain leaves a gap */
+        if (s->late) {
+            answer_warn(s->a,
+                        "the time limit of %g s ended the sweep after %lld of %lld values",
+                        r->time_limit_s, (long long)i, (long long)points);
+            s->a->transient = true;
+            points = i;
+        }
     }
     long *modes = calloc(all, sizeof *modes);
     if (modes == NULL)
@@ -273,7 +281,7 @@ static strum_status write_sweep(json_writer *json, absorber_solving *s,
         json_close_array(json);
         json_close_object(json);
     }
-    for (int64_t i = 0; rows != NULL && i < points; i++)
+    for (int64_t i = 0; rows != NULL && i < r->sweep.points; i++)
         strum_taut_roots_free(&rows[i].roots);
     free(rows);
     free(modes);

@@ -11,6 +11,10 @@
 
 #include "endpoints/absorber.h"
 
+/* Damping ratios from here on, and distances from a border, that call for a word. */
+#define NO_LONGER_OSCILLATES 0.999
+#define BORDER               1e-4
+
 static const field variable_fields[] = {
     {FIELD_AT(FIELD_NAME, absorber_variable, name), .flags = FIELD_REQUIRED,
      .help = "name by which numbers of the chain refer to it"},
@@ -74,7 +78,7 @@ static const field fields[] = {
      .flags = FIELD_DEFAULT, .fallback = 6000, .help = "trials of the search, at most"},
     {FIELD_AT(FIELD_NUMBER, absorber_request, time_limit_s), .unit = "s", .min = 0, .max = 600,
      .flags = FIELD_OPEN_MIN | FIELD_DEFAULT, .fallback = 60,
-     .help = "the best so far is answered then, with a warning"},
+     .help = "the best so far is answered then, with a warning; a sweep has as long again"},
     {.kind = FIELD_END}};
 
 static const char *const excited[] = {"modes", "band_rad_per_s", "current_m_per_s +required",
@@ -126,11 +130,10 @@ static void check_variables(const absorber_request *r, problem *p)
         if (!(all[i].min < all[i].max))
             problem_add(p, pointer, "must be greater than min");
         (void)snprintf(pointer, sizeof pointer, "/variables/%zu/name", i);
-        if (!n.used[i])
+        if (absorber_variable_index(r, all[i].name.text) < (int)i)
+            problem_add(p, pointer, "stands for an earlier variable already");
+        else if (!n.used[i])
             problem_add(p, pointer, "no number of the chain refers to %s", all[i].name.text);
-        for (size_t k = 0; k < i; k++)
-            if (strcmp(all[k].name.text, all[i].name.text) == 0)
-                problem_add(p, pointer, "stands for an earlier variable already");
     }
     if (field_given(&absorber_schema, r, "sweep") &&
         absorber_variable_index(r, r->sweep.variable.text) < 0)
@@ -194,13 +197,46 @@ static double now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static bool out_of_time(void *context)
+{
+    absorber_solving *s = context;
+    s->late = now_s() > s->deadline;
+    return s->late || answer_cancelled(s->a);
+}
+
+void absorber_allow(absorber_solving *s, double seconds)
+{
+    s->late = false;
+    s->deadline = now_s() + seconds;
+}
+
 static bool look_on(void *context, long evaluations, double best, const double *values)
 {
     (void)values;
     absorber_solving *s = context;
     answer_progress(s->a, evaluations, best, "trials; largest smallest damping ratio");
-    s->late = now_s() > s->deadline;
-    return !s->late && !answer_cancelled(s->a);
+    return !out_of_time(s);
+}
+
+/* What an engineer should know of a place that is not an optimum in the usual sense. */
+static void warn_of_borders(const absorber_solving *s, const strum_absorber_optimum *best,
+                            const strum_taut_roots *roots)
+{
+    const absorber_request *r = s->r;
+    const int at = strum_absorber_limiting(roots);
+    const double frequency = at >= 0 ? roots->roots[at].frequency : NAN;
+    if (best->damping_ratio > NO_LONGER_OSCILLATES)
+        answer_warn(s->a, "the least damped mode is all but overdamped here: beyond, it no "
+                          "longer oscillates, and its damping ratio has no maximum");
+    if (s->problem.mode_count > roots->count)
+        answer_warn(s->a,
+                    "%zu of the %zu modes asked do not oscillate here (overdamped, or their "
+                    "decay is beyond bounds) and do not limit",
+                    s->problem.mode_count - roots->count, s->problem.mode_count);
+    if (r->modes.count == 0 &&
+        (frequency < r->band[0] * (1 + BORDER) || frequency > r->band[1] * (1 - BORDER)))
+        answer_warn(s->a, "the least damped mode lies on the border of the band: a little "
+                          "further it leaves the band and limits no longer");
 }
 
 static bool respond(const void *data, answer *a)
@@ -210,7 +246,7 @@ static bool respond(const void *data, answer *a)
     strum_fault fault = {0};
     strum_absorber_optimum best;
     strum_taut_roots *roots = NULL;
-    s.deadline = now_s() + r->time_limit_s;
+    absorber_allow(&s, r->time_limit_s);
     s.problem = (strum_absorber_problem){
         .variables = (int)r->variables.count,
         .lowest_values = r->low,
@@ -223,20 +259,31 @@ static bool respond(const void *data, answer *a)
         .highest = r->band[1],
         .max_evaluations = r->max_evaluations,
         .progress = look_on,
+        .cancelled = out_of_time,
     };
     a->theory = "exact transfer matrices of the chain (Levesque 1997), max-min of the damping "
                 "ratio over all "
                 "modes that were asked for";
     strum_status status = strum_absorber_optimize(&s.problem, &best, &fault);
-    if (answer_cancelled(a))
-        status = STRUM_ERR_CANCELLED;
+    const bool late = s.late;
+    absorber_allow(&s, INFINITY); /* the best so far is answered however long it takes */
     if (status == STRUM_OK)
         status = strum_absorber_roots(&s.problem, best.values, &roots, &fault);
+    if (answer_cancelled(a)) {
+        status = STRUM_ERR_CANCELLED;
+    } else if (status == STRUM_ERR_CANCELLED) { /* none so far: not a matter of this daemon */
+        status = STRUM_ERR_IMPOSSIBLE;
+        (void)snprintf(fault.reason, sizeof fault.reason,
+                       "the time limit of %g s ended the search before any trial damped every "
+                       "mode that was asked for",
+                       r->time_limit_s);
+    }
     if (status != STRUM_OK) {
+        strum_taut_roots_free(&roots);
         chain_refuse(&fault, status, a->problem);
         return false;
     }
-    if (s.late) {
+    if (late) {
         a->transient = true;
         answer_warn(a, "the time limit of %g s ended the search: this is the best so far",
                     r->time_limit_s);
@@ -244,6 +291,7 @@ static bool respond(const void *data, answer *a)
         answer_warn(a, "max_evaluations (%lld) ended the search before it came to rest",
                     (long long)r->max_evaluations);
     }
+    warn_of_borders(&s, &best, roots);
     const bool good = absorber_write(&s, &best, roots);
     strum_taut_roots_free(&roots);
     return good;

@@ -47,7 +47,7 @@ static void optimum(void *data)
 {
     (void)data;
     const strum_absorber_problem problem = {2, low, high, build, NULL, NULL,
-                                            0, 0.5, 7,    20000, NULL};
+                                            0, 0.5, 7,    20000, NULL, NULL};
     strum_absorber_optimum best;
     if (strum_absorber_optimize(&problem, &best, NULL) != STRUM_OK)
         exit(1);

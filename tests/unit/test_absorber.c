@@ -54,8 +54,8 @@ static void hanging_absorber_damping(void **state)
     (void)state;
     hanging h = {.mass = 5, .stiffness = 68.45, .place = 25, .varied = {0}, .variables = 1};
     const double low[] = {0.1}, high[] = {200};
-    const strum_absorber_problem problem = {1, low, high, build_hanging, &h,  NULL,
-                                            0, 0.5, 7,    2000,          NULL};
+    const strum_absorber_problem problem = {1, low, high, build_hanging, &h,   NULL,
+                                            0, 0.5, 7,    2000,          NULL, NULL};
     const strum_absorber_optimum best = solved(&problem);
     assert_true(best.complete);
     assert_int_equal(best.evaluations, h.trials);
@@ -76,16 +76,16 @@ static void hanging_absorber_exceptional_point(void **state)
     (void)state;
     hanging h = {.mass = 5, .place = 25, .varied = {1, 0}, .variables = 2};
     const double low[] = {1, 0.1}, high[] = {500, 200};
-    const strum_absorber_problem problem = {2, low, high, build_hanging, &h,  NULL,
-                                            0, 0.5, 7,    4000,          NULL};
+    const strum_absorber_problem problem = {2, low, high, build_hanging, &h,   NULL,
+                                            0, 0.5, 7,    4000,          NULL, NULL};
     const strum_absorber_optimum best = solved(&problem);
     check_relative(best.values[0], 68.8240822771165, 1e-9);
     check_relative(best.values[1], 15.954079505678644, 1e-9);
     check_relative(best.loss_ratio, 0.2330964385740096, 1e-7);
     /* the same two modes asked by number */
     const long modes[] = {1, 2};
-    const strum_absorber_problem branches = {2, low, high, build_hanging, &h,  modes,
-                                             2, 0,   0,    6000,          NULL};
+    const strum_absorber_problem branches = {2, low, high, build_hanging, &h,   modes,
+                                             2, 0,   0,    6000,          NULL, NULL};
     const strum_absorber_optimum again = solved(&branches);
     check_relative(again.loss_ratio, 0.2330964385740096, 1e-7);
 }
@@ -97,8 +97,8 @@ static void hanging_absorber_over_a_band(void **state)
     (void)state;
     hanging h = {.mass = 5, .varied = {1, 0, 2}, .variables = 3};
     const double low[] = {1, 0.1, 5}, high[] = {500, 200, 25};
-    const strum_absorber_problem problem = {3, low, high, build_hanging, &h,  NULL,
-                                            0, 0.3, 11,   6000,          NULL};
+    const strum_absorber_problem problem = {3, low, high, build_hanging, &h,   NULL,
+                                            0, 0.3, 11,   6000,          NULL, NULL};
     const strum_absorber_optimum best = solved(&problem);
     check_relative(best.loss_ratio, 0.06325566987, 1e-9);
     check_relative(best.values[0], 102.82784028, 1e-7);
@@ -143,7 +143,7 @@ static void inline_absorber_branches(void **state)
     const double low[] = {0}, high[] = {2e6};
     for (int i = 0; i < 2; i++) {
         const strum_absorber_problem problem = {1, low, high, build_inline, NULL, &rows[i].mode,
-                                                1, 0,   0,    2000,         NULL};
+                                                1, 0,   0,    2000,         NULL, NULL};
         const strum_absorber_optimum best = solved(&problem);
         check_relative(best.values[0], rows[i].damping, 1e-5);
         check_relative(best.loss_ratio, rows[i].loss, 1e-9);
@@ -156,8 +156,8 @@ static void search_is_deterministic(void **state)
     (void)state;
     hanging h = {.mass = 5, .place = 20, .varied = {1, 0}, .variables = 2};
     const double low[] = {1, 0.1}, high[] = {500, 200};
-    const strum_absorber_problem problem = {2, low, high, build_hanging, &h,  NULL,
-                                            0, 0.3, 11,   600,           NULL};
+    const strum_absorber_problem problem = {2, low, high, build_hanging, &h,   NULL,
+                                            0, 0.3, 11,   600,           NULL, NULL};
     const strum_absorber_optimum a = solved(&problem), b = solved(&problem);
     assert_memory_equal(a.values, b.values, sizeof a.values);
     assert_true(a.damping_ratio == b.damping_ratio && a.evaluations == b.evaluations);
@@ -184,12 +184,39 @@ static void search_can_be_stopped(void **state)
     (void)state;
     double told = 0;
     const double low[] = {0.1}, high[] = {200};
-    const strum_absorber_problem problem = {1, low, high, build_for_stop, &told,        NULL,
-                                            0, 0.5, 7,    2000,           stop_at_forty};
+    const strum_absorber_problem problem = {1, low, high, build_for_stop, &told,         NULL,
+                                            0, 0.5, 7,    2000,           stop_at_forty, NULL};
     const strum_absorber_optimum best = solved(&problem);
     assert_false(best.complete);
     assert_int_equal(best.evaluations, 40);
     assert_true(best.damping_ratio == told && told > 0.1);
+}
+
+static bool at_once(void *context)
+{
+    (void)context;
+    return true;
+}
+
+/* Also within one evaluation, however long it takes; with nothing found there is no answer. */
+static void an_evaluation_can_be_stopped(void **state)
+{
+    (void)state;
+    double told = 0;
+    const double low[] = {0.1}, high[] = {200};
+    const strum_absorber_problem problem = {.variables = 1,
+                                            .lowest_values = low,
+                                            .highest_values = high,
+                                            .build = build_for_stop,
+                                            .context = &told,
+                                            .lowest = 0.5,
+                                            .highest = 300,
+                                            .max_evaluations = 2000,
+                                            .cancelled = at_once};
+    strum_absorber_optimum optimum;
+    strum_fault fault;
+    assert_int_equal(strum_absorber_optimize(&problem, &optimum, &fault), STRUM_ERR_CANCELLED);
+    assert_int_equal(optimum.evaluations, 1);
 }
 
 /* A mid-span absorber cannot damp even modes: said, not optimised. */
@@ -199,8 +226,8 @@ static void what_cannot_be_damped_is_said(void **state)
     hanging h = {.mass = 5, .stiffness = 68, .place = 25, .varied = {0}, .variables = 1};
     const double low[] = {0.1}, high[] = {200};
     const long even = 3; /* the absorber adds a mode below it */
-    strum_absorber_problem problem = {1, low, high, build_hanging, &h,  &even,
-                                      1, 0,   0,    200,           NULL};
+    strum_absorber_problem problem = {1, low, high, build_hanging, &h,   &even,
+                                      1, 0,   0,    200,           NULL, NULL};
     strum_absorber_optimum optimum;
     strum_fault fault;
     assert_int_equal(strum_absorber_optimize(&problem, &optimum, &fault), STRUM_ERR_IMPOSSIBLE);
@@ -236,6 +263,7 @@ int main(void)
         cmocka_unit_test(inline_absorber_branches),
         cmocka_unit_test(search_is_deterministic),
         cmocka_unit_test(search_can_be_stopped),
+        cmocka_unit_test(an_evaluation_can_be_stopped),
         cmocka_unit_test(what_cannot_be_damped_is_said),
         cmocka_unit_test(closed_forms),
     };
