@@ -11,6 +11,8 @@
 
 /* ---- entries ---- */
 
+#define ENTRY_FACES 2
+
 /* An answer, or a refusal that several requests wait for: immutable and shared by reference. */
 typedef struct entry {
     cache_key key;
@@ -25,7 +27,7 @@ typedef struct entry {
     /* What http has made ready for sending the entry again: set before the entry is shared,
      * dropped with the last reference. It may point into `body` as long as it holds the body
      * (entry_hold_body). */
-    void *face;
+    void *faces[ENTRY_FACES];
     void (*face_drop)(void *face);
 } entry;
 
@@ -41,8 +43,8 @@ entry *entry_solve(const asking *a, const cache_key *key, watch *w);
 
 /* ---- the cache ---- */
 
-/* What an entry is counted as beside its body: its own struct, and what its face takes. */
-#define CACHE_ENTRY_OVERHEAD 2560
+/* What an entry is counted as beside its body: its own struct, and what its faces take. */
+#define CACHE_ENTRY_OVERHEAD 3584
 
 typedef struct cache cache;
 
@@ -61,9 +63,9 @@ typedef enum cache_level { CACHE_CANONICAL, CACHE_RAW } cache_level;
 /* The stored answer of a key, referenced for the caller, or NULL. */
 entry *cache_find(cache *c, cache_level level, const cache_key *key);
 
-/* The raw key of a body that asks `owner` (an endpoint; NULL: as an item of a batch):
- * SipHash-2-4 under a secret of this cache, so that nobody can make two bodies share one. A
- * fifth of what SHA-256 takes, on the way of every stored answer. */
+/* The raw key of a body that asks `owner` (whatever tells them apart: an endpoint; NULL: an
+ * item of a batch): SipHash-2-4 under a secret of this cache, so that nobody can make two
+ * bodies share one. A fifth of what SHA-256 takes, on the way of every stored answer. */
 void cache_key_of_body(const cache *c, const void *owner, const char *body, size_t size,
                        cache_key *key);
 

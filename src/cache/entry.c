@@ -34,8 +34,9 @@ void entry_unref(entry *e)
 {
     if (!e || atomic_fetch_sub_explicit(&stored_of(e)->references, 1, memory_order_acq_rel) > 1)
         return;
-    if (e->face)
-        e->face_drop(e->face);
+    for (size_t i = 0; i < ENTRY_FACES; i++)
+        if (e->faces[i])
+            e->face_drop(e->faces[i]);
     entry_release_body(e);
 }
 

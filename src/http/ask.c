@@ -89,7 +89,7 @@ void ask_fly(server *s, const asking *a, const cache_key *key, flight *f, double
     if (e)
         e->queue_us = queue_us;
     if (lasting)
-        reply_make_face(s, e);
+        reply_make_faces(s, e);
     cache_land(s->cache, f, e);
     if (lasting && share && !e->shared)
         shared_keep(s->shared, e);
@@ -101,7 +101,7 @@ static void look(server *s, const cache_key *key, flight *f)
 {
     entry *e = find_shared(s, key);
     if (e) {
-        reply_make_face(s, e);
+        reply_make_faces(s, e);
     } else {
         problem why = {0};
         problem_set(&why, 404, NOT_STORED);
@@ -187,9 +187,9 @@ static enum MHD_Result wait_outcome(peer *p)
 
 typedef struct query_string {
     query_pair pairs[QUERY_PAIRS_MAX];
-    key_part parts[2 * QUERY_PAIRS_MAX + 1];
     size_t count;
     bool too_many;
+    text *bytes; /* all of them in a row, each name and value ended by a NUL */
 } query_string;
 
 static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *name,
@@ -201,8 +201,8 @@ static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *
     if (q->too_many)
         return MHD_NO;
     value = value ? value : "";
-    q->parts[2 * q->count + 1] = (key_part){name, strlen(name)};
-    q->parts[2 * q->count + 2] = (key_part){value, strlen(value)};
+    text_add(q->bytes, name, strlen(name) + 1);
+    text_add(q->bytes, value, strlen(value) + 1);
     q->pairs[q->count++] = (query_pair){.name = name, .value = value};
     return MHD_YES;
 }
@@ -300,12 +300,16 @@ static enum MHD_Result ask_by_query(peer *p)
     query_string q;
     q.count = 0;
     q.too_many = false;
-    q.parts[0] = (key_part){e->path, strlen(e->path)};
+    q.bytes = &r->canonical; /* its own turn comes later */
+    q.bytes->size = 0;
     MHD_get_connection_values(p->connection, MHD_GET_ARGUMENT_KIND, add_pair, &q);
     if (q.too_many)
         return reply_refusal(p, 400, "more than %d parameters", QUERY_PAIRS_MAX);
-    if (!key_of_parts(q.parts, 2 * q.count + 1, &r->waiter.raw))
+    if (q.bytes->failed)
         return reply_entry(p, NULL, REPLY_HIT);
+    /* Another owner than of bodies: a query's bytes may be some body's. */
+    cache_key_of_body(p->server->cache, &e->query, q.bytes->data, q.bytes->size,
+                      &r->waiter.raw);
     entry *hit = cache_find(p->server->cache, CACHE_RAW, &r->waiter.raw);
     if (hit)
         return reply_entry(p, hit, REPLY_HIT);

@@ -140,8 +140,16 @@ static void release_body(void *e)
     entry_release_body(e);
 }
 
+/* Faces: what is sent to POST, and to methods whose answers shared caches may keep. */
+enum { FACE_POST, FACE_SHARED };
+
+static int face_for(const request *r)
+{
+    return r->method == METHOD_POST ? FACE_POST : FACE_SHARED;
+}
+
 /* What an answer says of itself, whoever asks. */
-static void describe(const peer *p, struct MHD_Response *response, const entry *e)
+static void describe(int face, struct MHD_Response *response, const entry *e)
 {
     char value[128];
     if (e->transient) {
@@ -155,8 +163,7 @@ static void describe(const peer *p, struct MHD_Response *response, const entry *
     /* By its key an answer is for ever. What POST says is not for shared caches, some of which
      * would take the URL alone for the key. */
     header(response, "Cache-Control",
-           !p || p->request.method == METHOD_POST ? "no-cache"
-                                                  : "public, max-age=31536000, immutable");
+           face == FACE_POST ? "no-cache" : "public, max-age=31536000, immutable");
 }
 
 static void face_drop(void *face)
@@ -164,20 +171,22 @@ static void face_drop(void *face)
     MHD_destroy_response(face);
 }
 
-void reply_make_face(server *s, entry *e)
+void reply_make_faces(server *s, entry *e)
 {
-    struct MHD_Response *face = MHD_create_response_from_buffer_with_free_callback_cls(
-        e->size, e->body, release_body, e);
-    if (!face)
-        return; /* hits are then made anew each time */
-    entry_hold_body(e);
-    header(face, "Content-Type", JSON_TYPE);
-    describe(NULL, face, e);
-    header(face, "Cache-Status", "strum; hit");
-    if (*s->settings->cors_origins)
-        header(face, "Vary", "Origin");
-    e->face = face;
     e->face_drop = face_drop;
+    for (int i = 0; i < ENTRY_FACES; i++) {
+        struct MHD_Response *face = MHD_create_response_from_buffer_with_free_callback_cls(
+            e->size, e->body, release_body, e);
+        if (!face)
+            return; /* hits are then made anew each time */
+        entry_hold_body(e);
+        header(face, "Content-Type", JSON_TYPE);
+        describe(i, face, e);
+        header(face, "Cache-Status", "strum; hit");
+        if (*s->settings->cors_origins)
+            header(face, "Vary", "Origin");
+        e->faces[i] = face;
+    }
 }
 
 /* If-None-Match: a list of tags, weak ones too (RFC 9110 13.1.2), or "*". */
@@ -227,12 +236,12 @@ enum MHD_Result reply_entry(peer *p, entry *e, reply_source source)
     const request *r = &p->request;
     if (!e)
         return queue(p, 503, p->server->no_memory, 0);
-    const bool plain = source == REPLY_HIT && e->face && r->method == METHOD_POST &&
-                       !r->if_none_match && !r->given_id && !r->traceparent && !r->close &&
-                       (!r->origin || !*p->server->settings->cors_origins) &&
+    struct MHD_Response *face = source == REPLY_HIT ? e->faces[face_for(r)] : NULL;
+    const bool plain = face && !r->if_none_match && !r->given_id && !r->traceparent &&
+                       !r->close && (!r->origin || !*p->server->settings->cors_origins) &&
                        !p->server->draining && p->server->settings->log_requests != LOG_ALL;
     if (plain) {
-        const enum MHD_Result result = queue(p, 200, e->face, e->size);
+        const enum MHD_Result result = queue(p, 200, face, e->size);
         entry_unref(e);
         return result;
     }
@@ -249,7 +258,7 @@ enum MHD_Result reply_entry(peer *p, entry *e, reply_source source)
     if (!has)
         header(response, "Content-Type", good ? JSON_TYPE : PROBLEM_TYPE);
     if (good) {
-        describe(p, response, e);
+        describe(face_for(r), response, e);
         cache_status(response, e, source);
         if (source != REPLY_HIT)
             timing(p, response, e);

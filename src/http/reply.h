@@ -25,8 +25,8 @@ enum MHD_Result reply_asset(struct peer *p, const struct asset *a);
 /* OPTIONS: what the route allows, and what pages of other origins may do. */
 enum MHD_Result reply_options(struct peer *p, unsigned methods);
 
-/* Makes an answer's face: a response that is sent as it is for every plain hit. */
-void reply_make_face(struct server *s, entry *e);
+/* Makes an answer's faces: responses that are sent as they are for every plain hit. */
+void reply_make_faces(struct server *s, entry *e);
 
 /* What is sent when nothing else can be made: 503, out of memory. */
 struct MHD_Response *reply_no_memory(void);

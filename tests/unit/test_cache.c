@@ -546,8 +546,8 @@ static void no_more_memory_is_taken_than_is_counted(void **state)
         flight *lead = NULL;
         assert_int_equal(cache_enter(c, &key, &l.waiter, &hit, &lead), TURN_LEAD);
         entry *e = entry_of_size(&key, 200, (size_t)(i % 40) * 100 + 1);
-        reply_make_face(&s, e);
-        assert_non_null(e->face);
+        reply_make_faces(&s, e);
+        assert_non_null(e->faces[ENTRY_FACES - 1]);
         cache_land(c, lead, e);
         entry_unref(l.came);
         entry_unref(e);
