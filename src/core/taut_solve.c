@@ -40,6 +40,11 @@ static strum_status undamped(taut_solve *s, const long *numbers, size_t count)
             s->search.cancelled(s->search.context))
             status = fault_set(s->fault, STRUM_ERR_CANCELLED, "cancelled");
     }
+    if (status == STRUM_OK && out->found != out->expected)
+        status = fault_set(s->fault, STRUM_ERR_ACCURACY,
+                           "the count confirms %ld of %ld modes only: the components differ by "
+                           "more than doubles resolve",
+                           out->found, out->expected);
     if (status == STRUM_OK && !(out->highest > 0.0)) {
         out->lowest = w[0];
         out->highest = w[count - 1];
