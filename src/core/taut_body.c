@@ -31,20 +31,24 @@ static void pass_link(const taut_link *l, dual s2, double turn, dual *y, dual *v
 }
 
 /* Solves the n x n system g th = r for two right sides and gives det(g) th and det(g): Gauss
- * with row exchanges. A pivot of zero (a pole met exactly) is moved by one rounding; det th is
- * smooth there. */
+ * with row exchanges, by pivots in proportion to their rows: the row of a stiff joint must not
+ * be taken from others, which its kappa would swamp. A pivot of zero (a pole met exactly) is
+ * moved by one rounding; det th is smooth there. */
 static void solve_large(int n, dual g[LINKS][LINKS], dual r[LINKS][2], dual *det)
 {
     *det = dual_of(1.0);
-    double largest = 0.0;
+    double largest[LINKS] = {0}; /* of each row */
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
-            largest = fmax(largest, cabs(g[i][j].v));
+            largest[i] = fmax(largest[i], cabs(g[i][j].v));
     for (int k = 0; k < n; k++) {
         int p = k;
         for (int i = k + 1; i < n; i++)
-            if (cabs(g[i][k].v) > cabs(g[p][k].v))
+            if (cabs(g[i][k].v) * largest[p] > cabs(g[p][k].v) * largest[i])
                 p = i;
+        const double row = largest[p];
+        largest[p] = largest[k];
+        largest[k] = row;
         for (int j = 0; p != k && j < n + 2; j++) {
             dual *a = j < n ? &g[k][j] : &r[k][j - n], *b = j < n ? &g[p][j] : &r[p][j - n];
             const dual kept = *a;
@@ -53,8 +57,8 @@ static void solve_large(int n, dual g[LINKS][LINKS], dual r[LINKS][2], dual *det
         }
         if (p != k)
             *det = dual_scale(-1.0, *det);
-        if (cabs(g[k][k].v) < DBL_EPSILON * DBL_EPSILON * largest)
-            g[k][k].v = DBL_EPSILON * DBL_EPSILON * largest;
+        if (cabs(g[k][k].v) < DBL_EPSILON * DBL_EPSILON * row)
+            g[k][k].v = DBL_EPSILON * DBL_EPSILON * row;
         *det = dual_mul(*det, g[k][k]);
         for (int i = k + 1; i < n; i++) {
             const dual ratio = dual_div(g[i][k], g[k][k]);
