@@ -7,6 +7,7 @@
  */
 #include "core/taut_shape.h"
 
+#include <float.h>
 #include <stdlib.h>
 
 static strum_status add_node(strum_taut_shape *shape, double x, strum_fault *fault)
@@ -40,6 +41,14 @@ static strum_status add_antinode(strum_taut_shape *shape, double x, double ampli
         return STRUM_OK;
     shape->antinodes[shape->antinode_count++] = (strum_taut_antinode){x, fabs(amplitude)};
     return STRUM_OK;
+}
+
+/* Is station i a held end, or nothing but points between? */
+static bool at_held_end(const strum_taut_shape *shape, size_t i)
+{
+    const strum_taut *chain = shape->chain;
+    return (!chain->free_left && shape->x[i] == 0.0) ||
+           (!chain->free_right && shape->x[i] == shape->x[chain->count]);
 }
 
 static bool differ(double a, double b)
@@ -200,6 +209,11 @@ static strum_status survey_body(strum_taut_shape *shape, size_t i, strum_fault *
     cplx joint[STRUM_TAUT_LINKS_MAX + 1];
     taut_body_joints(c, &shape->at, state, joint);
     joint[c->body.count] = shape->y[i + 1]; /* the same sign for the next component */
+    /* at a held end y has the sign of the force there, and a body may turn against it */
+    if (at_held_end(shape, i))
+        joint[0] = copysign(DBL_MIN, creal(joint[1]));
+    if (at_held_end(shape, i + 1))
+        joint[c->body.count] = copysign(DBL_MIN, creal(joint[c->body.count - 1]));
     double from = 0.0;
     strum_status status = STRUM_OK;
     for (int k = 0; k < c->body.count && status == STRUM_OK; k++) {
@@ -225,9 +239,7 @@ static strum_status survey_station(strum_taut_shape *shape, size_t before, size_
         slopes(shape, before, &other, &in);
     if (after < chain->count)
         slopes(shape, after, &out, &other);
-    const bool held =
-        (here == 0 && !chain->free_left) || (here == chain->count && !chain->free_right);
-    if (held || !(y * in >= 0.0 && y * out <= 0.0) || y == 0.0)
+    if (at_held_end(shape, here) || !(y * in >= 0.0 && y * out <= 0.0) || y == 0.0)
         return STRUM_OK;
     return add_antinode(shape, shape->x[here], y, fault);
 }
