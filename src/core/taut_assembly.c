@@ -92,19 +92,35 @@ static void place_cable(cursor *at, const taut_component *c, const lobatto *l)
     const double drag = uniform ? c->cable.drag : 0.0;
     const double slope = (t1 - t0) / c->length;
     const int n = DEGREE + 1;
-    /* enough for the phase, for the decay that drag adds, and for the change of tension */
+    /* enough for the phase, for the decay that drag adds, and for the change of tension, by
+     * equal factors of which the pieces go */
     const double phase =
-        at->highest * c->length * sqrt((mass + drag / (at->highest + DBL_MIN)) / fmin(t0, t1));
+        at->highest * c->length * sqrt((mass + drag / (at->highest + DBL_MIN)) / fmax(t0, t1));
+    const double log_ratio = log1p((t1 - t0) / t0), change = fmax(t0, t1) * fabs(log_ratio);
+    const double stretch = log_ratio != 0.0 ? change / fabs(t1 - t0) : 1.0;
     const int pieces =
-        (int)fmin(fmax(ceil(phase / PHASE), 8.0 * fabs(log(t1 / t0))) + 1.0, 1e6);
-    const double h = c->length / pieces;
+        (int)fmin(fmax(ceil(phase * stretch / PHASE), 8.0 * fabs(log_ratio)) + 1.0, 1e6);
+    if (at->a->k == NULL) { /* only measuring */
+        const int apart = at->next - 1 + DEGREE - at->node;
+        at->a->band = at->a->band < apart ? apart : at->a->band;
+        at->next += pieces * DEGREE;
+        at->node = at->next - 1;
+        return;
+    }
     double k[(DEGREE + 1) * (DEGREE + 1)], d[(DEGREE + 1) * (DEGREE + 1)],
         m[(DEGREE + 1) * (DEGREE + 1)];
     for (int e = 0; e < pieces; e++) {
+        double x[2];
+        for (int end = 0; end < 2; end++) {
+            const double share = (double)(e + end) / pieces;
+            x[end] = c->length *
+                     (log_ratio != 0.0 ? expm1(share * log_ratio) / expm1(log_ratio) : share);
+        }
+        const double h = x[1] - x[0];
         for (int i = 0; i < n * n; i++)
             k[i] = d[i] = m[i] = 0.0;
         for (int q = 0; q < n; q++) {
-            const double t = t0 + slope * h * (e + 0.5 * (1.0 + l->x[q]));
+            const double t = t0 + slope * (x[0] + 0.5 * h * (1.0 + l->x[q]));
             const double w = 0.5 * h * l->weight[q];
             for (int i = 0; i < n; i++)
                 for (int j = 0; j < n; j++)

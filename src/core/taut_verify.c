@@ -208,6 +208,8 @@ static void compare(const strum_taut_roots *roots, size_t count, const double *r
     for (size_t i = 0; i < roots->count; i++) {
         const strum_taut_root *r = &roots->roots[i];
         double nearest = INFINITY;
+        if (r->frequency == 0.0) /* a rigid motion: 0 exactly, and not in the box */
+            continue;
         for (size_t k = 0; k < count; k++)
             nearest = fmin(nearest, hypot(im[k] - r->frequency, re[k] + r->decay));
         v->max_relative_difference =
@@ -230,8 +232,7 @@ static strum_status verify_damped(const strum_taut *chain, const strum_taut_root
         status = fault_set(fault, STRUM_ERR_MEMORY, "no memory for %zu unknowns", n);
     } else {
         double *re = work + 7 * n * n, *im = re + 2 * n;
-        status =
-            quadratic_roots(&a, 0.5 * (roots->lowest + roots->highest), work, re, im, fault);
+        status = quadratic_roots(&a, sqrt(roots->lowest * roots->highest), work, re, im, fault);
         if (status == STRUM_OK)
             compare(roots, 2 * n, re, im, v);
     }

@@ -390,6 +390,16 @@ strum_status chain_make(const chain_input *in, const chain_variables *x, strum_t
     return status;
 }
 
+size_t chain_varying(const chain_input *in)
+{
+    const object_item *items = in->components.items;
+    size_t count = 0;
+    for (size_t i = 0; i < in->components.count; i++)
+        count += items[i].variant == VARYING_CABLE &&
+                 ((const chain_part *)items[i].object)->solution == 0;
+    return count;
+}
+
 double chain_mean_mass(const chain_input *in, const chain_variables *x)
 {
     const object_item *items = in->components.items;

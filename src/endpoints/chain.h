@@ -58,6 +58,8 @@ void chain_prepare(const chain_input *in, problem *p);
 /* The chain; the caller ends it by strum_taut_free. */
 strum_status chain_make(const chain_input *in, const chain_variables *x, strum_taut **chain,
                         strum_fault *fault);
+/* How many cables of varying tension are solved exactly. */
+size_t chain_varying(const chain_input *in);
 /* Mean mass per length of the cables of a chain, kg/m; 0 without any. */
 double chain_mean_mass(const chain_input *in, const chain_variables *x);
 

@@ -9,6 +9,9 @@
 #define SHAPE_POINTS_MAX 2000
 /* Nodes of one answer: an upper bound from the mode numbers. */
 #define NODES_MAX 200000
+/* One varying cable costs as much as so many other components (power series over its tension).
+ */
+#define VARYING_COST 500.0
 
 static const char *const methods[] = {"certified", "muller", NULL};
 
@@ -115,7 +118,8 @@ static double mode_estimate(const request *r, const strum_taut *chain)
 static double cost_us(const void *data)
 {
     const request *r = data;
-    const double parts = (double)r->in.components.count;
+    const double parts =
+        (double)r->in.components.count + VARYING_COST * (double)chain_varying(&r->in);
     strum_taut *chain;
     if (chain_make(&r->in, NULL, &chain, NULL) != STRUM_OK)
         return 10.0;
@@ -128,7 +132,7 @@ static double cost_us(const void *data)
                (damped     ? 15.0
                 : r->nodes ? 1.0
                            : 0.2) +
-           (r->verify ? (damped ? 1e5 : 2.0 * modes * parts) : 0.0) +
+           (r->verify ? (damped ? 1e5 : 1e3 + 2.0 * modes * parts) : 0.0) +
            modes * (double)r->shape_points * 0.3;
 }
 
