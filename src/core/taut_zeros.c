@@ -7,27 +7,42 @@
 
 #include <float.h>
 
+/* How long a step from z may be, g = F'/F there. Samples one period of a row of zeros apart
+ * look alike, so that whole turns between them would pass unseen: beside zeros, a third of the
+ * spacing of modes (and of closer ones: g tells of them). Longer where none is near: right of
+ * the imaginary axis, and where F grows like e^{+-travel s}. */
+static double longest_step(const taut_search *search, cplx z, cplx g)
+{
+    const double travel = search->chain->travel;
+    const double apart = fmin(cabs(g - travel), cabs(g + travel));
+    const double beside = fmin(search->spacing / 3.0, 2.5 / cabs(g));
+    return fmax(fmax(beside, 4.0 * creal(z)), 0.5 / apart);
+}
+
 /* Change of the argument of F from a to b. Each step compares the change seen with the one that
- * F'/F at its two ends predicts; so whole turns between two samples are told, and far from
- * zeros a step spans several radians. */
+ * F'/F at its two ends predicts; so far from zeros a step spans several radians. */
 static bool walk(taut_search *search, cplx a, cplx b, taut_value *at_a, double *argument)
 {
     const double length = cabs(b - a);
-    double done = 0.0, h = fmin(1.0, search->spacing / length);
+    double done = 0.0, h = 1.0;
     if (length == 0.0)
         return true;
     while (done < 1.0) {
+        if (search->status != STRUM_OK || at_a->f == 0.0)
+            return false;
+        const cplx start = a + done * (b - a), g = over(at_a->d, at_a->f);
+        h = fmin(h, longest_step(search, start, g) / length);
         const double to = fmin(done + h, 1.0);
         const cplx z = to < 1.0 ? a + to * (b - a) : b, dz = (to - done) * (b - a);
         const taut_value next = taut_search_value(search, z);
-        if (search->status != STRUM_OK || next.f == 0.0 || at_a->f == 0.0)
+        if (search->status != STRUM_OK || next.f == 0.0)
             return false;
-        const cplx from = times(over(at_a->d, at_a->f), dz);
-        const cplx into = times(over(next.d, next.f), dz);
+        const cplx from = times(g, dz), into = times(over(next.d, next.f), dz);
         const double expected = 0.5 * cimag(from + into), bend = cabs(into - from);
         double seen = carg(over(next.f, at_a->f));
         seen += 2.0 * M_PI * round((expected - seen) / (2.0 * M_PI));
-        if (fabs(seen - expected) < 0.5 && bend < 1.5) {
+        if (fabs(seen - expected) < 0.5 && bend < 1.5 &&
+            cabs(dz) <= 1.5 * longest_step(search, z, over(next.d, next.f))) {
             *argument += seen;
             *at_a = next;
             done = to;
