@@ -3,7 +3,7 @@
  * marks: [{x, label}], note} is drawn by uPlot on the page and by svg.js for export. */
 import { chartCsv, chartPng, chartSvg } from './svg.js';
 import { colour, download, h } from './dom.js';
-import { brief } from './values.js';
+import { brief, tickWords } from './values.js';
 import { extent, padded } from './scale.js';
 
 function lineColour(one, i) {
@@ -51,10 +51,11 @@ function drawMarks(chart) {
 
 function options(chart, width) {
   const axis = (part) => ({
-    label: chart[part].label, stroke: colour('soft'), labelSize: 22, size: part === 'y' ? 62 : 36, font: '12px sans-serif', labelFont: '13px sans-serif',
+    label: chart[part].label, stroke: colour('soft'), labelSize: 22,
+    size: part === 'y' ? (plot, words) => 20 + 7 * Math.max(4, ...(words ?? []).map((word) => word.length)) : 36, font: '12px sans-serif', labelFont: '13px sans-serif',
     grid: { stroke: colour('grid'), width: 1 }, ticks: { stroke: colour('line'), width: 1 },
     incrs: chart[part].label === 'mode' ? [1, 2, 5, 10, 20, 50, 100] : undefined,
-    values: (plot, splits) => splits.map((value) => (value === null ? '' : brief(value))),
+    values: (plot, splits) => splits.map((value) => (value === null ? '' : tickWords(value))),
   });
   const scale = (part) => {
     const log = Boolean(chart[part].log);

@@ -2,15 +2,27 @@
 /* Absorbers: every branch of damping against the variable swept, and the optimum on them. */
 import { brief } from './values.js';
 
+/* Beyond a coalescence roots lie on no numbered branch, several at a value: as points, the first of each value, the
+ * second, and so on. */
+function layers(points) {
+  const out = [];
+  points.forEach((point, i) => {
+    const before = points.slice(0, i).filter((other) => other.value === point.value).length;
+    (out[before] ??= []).push(point);
+  });
+  return out;
+}
+
 function branches(answer, key, label, title) {
   const { result } = answer;
   const sweep = result.sweep;
   const variable = sweep?.variable ?? answer.request.sweep?.variable;
   if (!sweep || !variable) return null;
-  const series = (sweep.branches ?? []).map((branch) => {
-    const points = branch.points ?? branch.values ?? [];
-    return { label: `mode ${branch.mode}`, x: points.map((point) => point[variable] ?? point.value), y: points.map((point) => point[key] ?? 0) };
-  }).filter((one) => one.x.length);
+  const curve = (words, points, more) => ({ label: words, x: points.map((point) => point.value), y: points.map((point) => point[key]), ...more });
+  const numbered = sweep.branches.filter(({ mode }) => mode);
+  const others = sweep.branches.filter(({ mode }) => !mode).flatMap(({ points }) => layers(points));
+  const series = [...numbered.map(({ mode, points }) => curve(`mode ${mode}`, points)),
+    ...others.map((points, i) => curve(`on no branch${i ? `, ${i + 1}` : ''}`, points, { pointsOnly: true, colour: 3 }))].filter((one) => one.x.length);
   if (!series.length) return null;
   const best = result.optimum?.[variable];
   const span = [Math.min(...series.flatMap((one) => one.x)), Math.max(...series.flatMap((one) => one.x))];

@@ -63,7 +63,8 @@ const sweep = {
       }
     }
     /* Towards a taut cable all ratios grow without bound: the sheet ends where most of it would be empty, or above this cable. */
-    const here = [...(answer.result.in_plane ?? []), ...(answer.result.out_of_plane ?? [])].map((mode) => mode.frequency_ratio);
+    const inside = sagParameter(geometry) <= 0.98;
+    const here = !inside ? [] : [...(answer.result.in_plane ?? []), ...(answer.result.out_of_plane ?? [])].map((mode) => mode.frequency_ratio);
     const beside = series.flatMap((one) => one.y.filter((y, i) => one.x[i] <= 0.955));
     const top = 1.1 * Math.max(...here.slice(0, 6), ...beside);
     const figure = FIGURES[Math.abs(geometry.rise_to_span)];

@@ -47,11 +47,12 @@ function motion(answer) {
 }
 
 export const forced = {
-  headline({ result }) {
+  headline({ request, result }) {
+    const free = !request.eta_normal && !request.eta_tangential && result.resonances.length > 0;
     const bounded = result.curve.filter((point) => !point.unbounded);
     const worst = bounded.reduce((a, b) => (b.max_dynamic_tension > (a?.max_dynamic_tension ?? -1) ? b : a), null);
     return [
-      worst && { label: 'largest dynamic tension asked for', value: worst.max_dynamic_tension_N ?? worst.max_dynamic_tension, unit: worst.max_dynamic_tension_N !== undefined ? 'N' : 'S\u2080',
+      worst && { label: free ? 'largest at the frequencies asked for; at a resonance it has no bound' : 'largest dynamic tension', value: worst.max_dynamic_tension_N ?? worst.max_dynamic_tension, unit: worst.max_dynamic_tension_N !== undefined ? 'N' : 'S\u2080',
         more: `at ratio ${brief(worst.frequency_ratio)}${worst.frequency_Hz !== undefined ? `, ${brief(worst.frequency_Hz)} Hz` : ''}` },
       { label: 'resonances in the range', value: result.resonances.length, unit: '', more: result.resonances.slice(0, 4).map((one) => brief(one.frequency_ratio, 5)).join(', ') },
     ].filter(Boolean);

@@ -36,7 +36,9 @@ function curves(found, value) {
   const count = Math.max(0, ...found.map(({ answer }) => answer.result.modes.length));
   return Array.from({ length: Math.min(count, 6) }, (_, k) => {
     const some = found.filter(({ answer }) => answer.result.modes[k]?.[value] !== undefined);
-    return { label: `mode ${k + 1}`, colour: k, x: some.map(({ request }) => request.lambda_squared / Math.PI ** 2), y: some.map(({ answer }) => answer.result.modes[k][value]) };
+    return { label: `mode ${k + 1}`, colour: k, x: some.map(({ request }) => request.lambda_squared / Math.PI ** 2),
+      /* Where the k-th mode becomes one of another family (longitudinal ones come low in a soft cable) its curve is cut. */
+      y: some.map(({ answer }, i) => (i && some[i - 1].answer.result.modes[k].family !== answer.result.modes[k].family ? null : answer.result.modes[k][value])) };
   });
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A chart's description as a standing SVG picture, for documents; from it the PNG. */
 import { extent, logTicks, padded, ticks } from './scale.js';
-import { brief } from './values.js';
+import { tickWords } from './values.js';
 
 const COLOURS = ['#0b6b8f', '#b8500f', '#5b4aa8', '#1f7a47', '#a3265f', '#6b5b12'];
 const WIDTH = 860;
@@ -39,10 +39,10 @@ function grid(chart, at) {
   const out = [];
   const [bottom, right] = [HEIGHT - BOX.bottom, WIDTH - BOX.right];
   for (const value of chart.x.log ? logTicks(at.xs) : ticks(at.xs)) {
-    out.push(`<path d="M${at.x(value).toFixed(1)} ${BOX.top}V${bottom}" class="grid"/>`, text(at.x(value), bottom + 20, brief(value), 'text-anchor="middle"'));
+    out.push(`<path d="M${at.x(value).toFixed(1)} ${BOX.top}V${bottom}" class="grid"/>`, text(at.x(value), bottom + 20, tickWords(value), 'text-anchor="middle"'));
   }
   for (const value of chart.y.log ? logTicks(at.ys) : ticks(at.ys)) {
-    out.push(`<path d="M${BOX.left} ${at.y(value).toFixed(1)}H${right}" class="grid"/>`, text(BOX.left - 8, at.y(value) + 4, brief(value), 'text-anchor="end"'));
+    out.push(`<path d="M${BOX.left} ${at.y(value).toFixed(1)}H${right}" class="grid"/>`, text(BOX.left - 8, at.y(value) + 4, tickWords(value), 'text-anchor="end"'));
   }
   out.push(`<rect x="${BOX.left}" y="${BOX.top}" width="${right - BOX.left}" height="${bottom - BOX.top}" class="box"/>`);
   out.push(text((BOX.left + right) / 2, HEIGHT - 14, chart.x.label, 'text-anchor="middle"'));

@@ -30,6 +30,12 @@ function columnsOf(list) {
   return [...names].filter((name) => !list.some((row) => Array.isArray(row[name]) && row[name].some(isRecord)));
 }
 
+function classOf(value) {
+  if (typeof value === 'number') return 'number';
+  const size = typeof value === 'string' ? value.length : 0;
+  return size > 60 ? 'long' : size > 24 ? 'some' : undefined;
+}
+
 /* What a cell shows; where `opens` has a question for it, a button that asks it. */
 function cell(column, row, { opens, load }) {
   const question = opens?.(column, row);
@@ -45,7 +51,7 @@ function listTable(name, list, doors) {
       h('caption', {}, heading(name)),
       h('thead', {}, h('tr', {}, columns.map((column) => h('th', { scope: 'col', class: list.every((row) => typeof (row[column] ?? 0) === 'number') ? 'number' : undefined }, heading(column))))),
       h('tbody', {}, list.slice(0, ROWS).map((row) => h('tr', {}, columns.map((column) =>
-        h('td', { class: typeof row[column] === 'number' ? 'number' : String(row[column] ?? '').length > 60 ? 'long' : undefined, title: typeof row[column] === 'number' ? String(row[column]) : undefined }, cell(column, row, doors)))))))),
+        h('td', { class: classOf(row[column]), title: typeof row[column] === 'number' ? String(row[column]) : undefined }, cell(column, row, doors)))))))),
     left,
     h('div', { class: 'exports' }, h('button', { type: 'button', 'aria-label': `${heading(name)}: save as CSV`, onclick: () => download(`${name}.csv`, 'text/csv', csv()) }, 'CSV')));
 }

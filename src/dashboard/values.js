@@ -61,6 +61,11 @@ export function brief(value, digits = 6) {
   return value === undefined || value === null ? '' : String(value);
 }
 
+/* At an axis: no more zeros than one can count. */
+export function tickWords(value) {
+  return Math.abs(value) >= 1e5 ? value.toExponential().replace('e+', 'e') : brief(value);
+}
+
 /* "kg/m" is "_kg_per_m" at the end of a name. */
 function suffix(unit) {
   return `_${unit.replaceAll('^', '').replace(/[*\u00b7 ]/g, '_').replace('/', '_per_')}`;
