@@ -2,12 +2,15 @@
 #include "cache/shared.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <openssl/crypto.h>
 #include <openssl/hmac.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <strum/status.h>
@@ -30,6 +33,7 @@ static const char mark[8] = "strum 1\n";
 struct shared {
     shared_options options;
     char host[256], port[128];
+    char solver[48];       /* the version and build whose answers are shared */
     text secret, password; /* empty: none */
     pthread_mutex_t lock;  /* of what follows; never held while the store is waited for */
     redis_place at;
@@ -155,16 +159,37 @@ static redis_reply ask(shared *s, const key_part *words, size_t count, text *val
 
 /* ---- values ---- */
 
-/* Answers of another solver are others' business. */
+/* Builds of one version may differ: only this very program's answers are for it. Where it
+ * cannot be read, the version has to do. */
+static void name_solver(shared *s)
+{
+    cache_key digest = {{0}};
+    char hex[KEY_HEX_SIZE];
+    struct stat file;
+    const int fd = open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
+    if (fd >= 0 && fstat(fd, &file) == 0) {
+        const size_t size = (size_t)file.st_size;
+        void *program = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
+        if (program != MAP_FAILED) {
+            (void)key_of_parts(&(key_part){program, size}, 1, &digest);
+            munmap(program, size);
+        }
+    }
+    if (fd >= 0)
+        close(fd);
+    key_hex(&digest, hex);
+    snprintf(s->solver, sizeof s->solver, "%.24s-%.16s", strum_version(), hex);
+}
+
 typedef struct name {
-    char bytes[32 + KEY_HEX_SIZE];
+    char bytes[sizeof "strum::" + sizeof((shared *)0)->solver + KEY_HEX_SIZE];
 } name;
 
-static key_part name_of(const cache_key *key, name *n)
+static key_part name_of(const shared *s, const cache_key *key, name *n)
 {
     char hex[KEY_HEX_SIZE];
     key_hex(key, hex);
-    snprintf(n->bytes, sizeof n->bytes, "strum:%.24s:%s", strum_version(), hex);
+    snprintf(n->bytes, sizeof n->bytes, "strum:%s:%s", s->solver, hex);
     return (key_part){n->bytes, strlen(n->bytes)};
 }
 
@@ -173,9 +198,8 @@ static key_part name_of(const cache_key *key, name *n)
 static bool seal(const shared *s, const cache_key *key, const char *body, size_t size,
                  cache_key *sealed)
 {
-    const char *version = strum_version();
     const key_part parts[] = {
-        {mark, sizeof mark}, {version, strlen(version)}, {key, sizeof *key}, {body, size}};
+        {mark, sizeof mark}, {s->solver, strlen(s->solver)}, {key, sizeof *key}, {body, size}};
     cache_key digest;
     return key_of_parts(parts, 4, &digest) &&
            HMAC(EVP_sha256(), s->secret.size ? s->secret.data : "", (int)s->secret.size,
@@ -209,7 +233,8 @@ entry *shared_find(shared *s, const cache_key *key)
     name n;
     text value = {0};
     entry *e = NULL;
-    const redis_reply got = ask(s, (const key_part[]){{"GET", 3}, name_of(key, &n)}, 2, &value);
+    const redis_reply got =
+        ask(s, (const key_part[]){{"GET", 3}, name_of(s, key, &n)}, 2, &value);
     if (got == REDIS_NOTHING) {
         count(s, &s->count.misses);
     } else if (got == REDIS_TOO_LARGE || got == REDIS_DONE ||
@@ -237,7 +262,7 @@ void shared_keep(shared *s, const entry *e)
     const int digits =
         snprintf(seconds, sizeof seconds, "%lld", (long long)s->options.expiry_s);
     const key_part words[] = {{"SET", 3},
-                              name_of(&e->key, &n),
+                              name_of(s, &e->key, &n),
                               {value.data, value.size},
                               {"EX", 2},
                               {seconds, (size_t)digits}};
@@ -287,6 +312,7 @@ shared *shared_new(const shared_options *options, char fault[256])
     /* The first who asks tries whether it is there. */
     s->count.away = true;
     s->pause_ms = AWAY_FIRST_MS;
+    name_solver(s);
     if (read_line("store_secret_file", options->secret_file, SECRET_MIN, &s->secret, fault) &&
         read_line("store_password_file", options->password_file, 1, &s->password, fault))
         return s;
