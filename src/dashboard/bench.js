@@ -146,13 +146,17 @@ export function makeBench(endpoint, first, keptFirst) {
     const curl = curlOf(endpoint.path, request);
     const citation = `${solver}, ${endpoint.path}, ${theory}. Answer ${key}, ${location.origin}${address}`;
     const link = () => new URL(stateLink(endpoint.path, current.request, kept), location.href).href;
+    const below = () => {
+      cite.querySelector('details').open = true;
+      return 'shown below, to be copied by hand';
+    };
     const button = (word, act) => h('button', { type: 'button', onclick: act }, word);
     cite.replaceChildren(
       h('div', { class: 'exports' },
         button('Keep to compare', keep),
-        button('Copy citation', () => copy(citation, 'The citation')),
-        button('Copy link', () => copy(link(), 'The link to this view')),
-        button('Copy curl', () => copy(curl, 'The curl line')),
+        button('Copy citation', () => copy(citation, 'The citation', below)),
+        button('Copy link', () => copy(link(), 'The link to this view', () => 'in the address bar')),
+        button('Copy curl', () => copy(curl, 'The curl line', below)),
         button('JSON', () => download(`${endpoint.name}.json`, 'application/json', text))),
       h('details', {}, h('summary', {}, 'Cite, repeat, check'),
         h('p', {}, 'Permanent address: ', h('a', { href: address, class: 'address' }, h('code', {}, address))),

@@ -40,11 +40,12 @@ export function download(name, type, content) {
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
 
-export async function copy(text, what) {
+/* Away from localhost and https browsers have no clipboard: `elsewhere` then shows the text. */
+export async function copy(text, what, elsewhere) {
   try {
     await navigator.clipboard.writeText(text);
     announce(`${what} copied`);
   } catch {
-    announce(`The browser does not let this page copy; ${what} is shown for copying by hand`);
+    announce(`The browser does not let this page copy: ${what.replace(/^The/, 'the')} is ${elsewhere()}`);
   }
 }

@@ -266,6 +266,19 @@ test('a long computation tells how far it is', async () => {
   bed.noFaults();
 });
 
+test('without a clipboard what would be copied is shown', async () => {
+  const page = await bed.open('/');
+  await settled(page);
+  await page.evaluate(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
+  await page.getByRole('button', { name: 'Copy curl' }).click();
+  await page.locator('.said', { hasText: 'the curl line is shown below' }).waitFor();
+  assert.equal(await page.locator('.cite code.curl').isVisible(), true);
+  await page.getByRole('button', { name: 'Copy link' }).click();
+  await page.locator('.said', { hasText: 'in the address bar' }).waitFor();
+  await page.close();
+  bed.noFaults();
+});
+
 test('colours follow the button, and are kept', async () => {
   const page = await bed.open('/');
   await settled(page);
