@@ -36,8 +36,7 @@ extern "C" {
  * -------------------------------------------------------------------------------------- */
 
 /* Largest |chi| of an end: |xi| about 1.3e5. Towards it the weights of the integrals span so
- * many orders that rounding grows: at |xi| = 1e5 the two methods agree to 5e-12, up to 3e4 to
- * 1e-12. */
+ * many orders that rounding grows, to some 3e-13 in the frequencies. */
 #define STRUM_CHI_MAX 12.5
 /* Largest number of modes of one call. */
 #define STRUM_MODES_MAX 200

@@ -1,23 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/coordinate.h"
 
+#include <complex.h>
 #include <math.h>
-
-/* Between 2, which makes the waves of a deep cable even, and infinity, which is linear: 2.5
- * keeps the lowest point, where the coefficients vary most, in sight of the functions. */
-#define STRETCH 2.5
 
 coordinate coordinate_linear(const strum_cable *cable)
 {
     return (coordinate){.chi_m = cable->chi_m, .mu = cable->mu};
 }
 
-coordinate coordinate_stretched(const strum_cable *cable)
+coordinate coordinate_stretched(const strum_cable *cable, double stretch)
 {
     coordinate c = coordinate_linear(cable);
-    const double first = sinh((c.chi_m - c.mu) / STRETCH),
-                 last = sinh((c.chi_m + c.mu) / STRETCH);
-    c.stretch = STRETCH;
+    const double first = sinh((c.chi_m - c.mu) / stretch),
+                 last = sinh((c.chi_m + c.mu) / stretch);
+    c.stretch = stretch;
     c.middle = c.chi_m == 0 ? 0 : (first + last) / 2;
     c.half = (last - first) / 2;
     return c;
@@ -51,4 +48,12 @@ double coordinate_x(const coordinate *c, double chi)
 double coordinate_pole(const coordinate *c)
 {
     return c->stretch == 0 ? M_PI_2 / c->mu : sin(M_PI_2 / c->stretch) / c->half;
+}
+
+double coordinate_rate(const coordinate *c)
+{
+    const double _Complex z = c->stretch == 0
+                                  ? CMPLX(-c->chi_m, M_PI_2) / c->mu
+                                  : CMPLX(-c->middle, sin(M_PI_2 / c->stretch)) / c->half;
+    return fabs(creal(cacosh(z)));
 }

@@ -17,7 +17,8 @@ typedef struct coordinate {
 } coordinate;
 
 coordinate coordinate_linear(const strum_cable *cable);
-coordinate coordinate_stretched(const strum_cable *cable);
+/* A = 2 would make the waves of a deep cable even, infinity is linear. */
+coordinate coordinate_stretched(const strum_cable *cable, double stretch);
 
 /* chi(x) - chi_m, without cancellation where the coordinate is linear. */
 double coordinate_offset(const coordinate *c, double x);
@@ -29,5 +30,8 @@ double coordinate_x(const coordinate *c, double chi);
 /* Distance from the real axis, in x, of the nearest singularity of the cable's coefficients,
  * chi = i pi/2. */
 double coordinate_pole(const coordinate *c);
+/* Rate at which Legendre series of the coefficients shrink, e^(-rate n): of the ellipse through
+ * that singularity (larger than the distance where it lies beside an end). */
+double coordinate_rate(const coordinate *c);
 
 #endif

@@ -175,6 +175,41 @@ static strum_status tail(const strum_forced *f, double *error)
     return status;
 }
 
+/* Grows the size in one coordinate until the tail is short enough. */
+static strum_status grow(strum_forced *f, coordinate along, int modes, strum_fault *fault)
+{
+    const strum_plane plane = f->in_plane ? STRUM_IN_PLANE : STRUM_OUT_OF_PLANE;
+    double cosh_chi, c, s, error = INFINITY, before = INFINITY;
+    f->coordinate = along;
+    inplane_frame_at(&f->coordinate, 1, &cosh_chi, &c, &s);
+    f->end[0][0] = f->end[1][1] = c;
+    f->end[0][1] = s;
+    f->end[1][0] = -s;
+    double size = 1.4 * spectrum_first_size(&f->cable, &f->coordinate, plane, modes) + 4;
+    for (; size < SPECTRUM_SIZE_MAX_QUADRATIC; size = 1.3 * size + 6) {
+        strum_status status = make_at_size(f, (int)size);
+        if (status == STRUM_OK)
+            status = tail(f, &error);
+        if (status != STRUM_OK)
+            return fault_set(fault, status, "%s", strum_status_text(status));
+        if (error < TAIL_MAX)
+            return STRUM_OK;
+        arena_free(&f->memory);
+        /* rounding, not size, stands in the way once a larger size helps no more */
+        if (error < 1e-8 && error > before / 2)
+            break;
+        before = error;
+    }
+    if (isinf(error))
+        return fault_set(fault, STRUM_ERR_ACCURACY,
+                         "the response needs about %.0f unknowns a component; %d can be solved",
+                         size, SPECTRUM_SIZE_MAX_QUADRATIC);
+    return fault_set(fault, STRUM_ERR_ACCURACY,
+                     "the last terms of the response are still %.1e of the first (%.0e is "
+                     "promised) at up to %d unknowns a component",
+                     error, TAIL_MAX, SPECTRUM_SIZE_MAX_QUADRATIC);
+}
+
 static strum_status make(strum_forced *f, strum_fault *fault)
 {
     double count = 2;
@@ -186,27 +221,12 @@ static strum_status make(strum_forced *f, strum_fault *fault)
         return fault_set(fault, STRUM_ERR_RANGE,
                          "about %.6g modes lie below the highest frequency; %d can be answered",
                          ceil(count), STRUM_MODES_MAX);
-    double error = INFINITY;
     const strum_plane plane = f->in_plane ? STRUM_IN_PLANE : STRUM_OUT_OF_PLANE;
-    double size =
-        1.4 * spectrum_first_size(&f->cable, &f->coordinate, plane, (int)ceil(count)) + 4;
-    for (; size < SPECTRUM_SIZE_MAX_QUADRATIC; size = 1.3 * size + 6) {
-        strum_status status = make_at_size(f, (int)size);
-        if (status == STRUM_OK)
-            status = tail(f, &error);
-        if (status != STRUM_OK)
-            return fault_set(fault, status, "%s", strum_status_text(status));
-        if (error < TAIL_MAX)
-            return STRUM_OK;
-        arena_free(&f->memory);
-    }
-    if (isinf(error))
-        return fault_set(fault, STRUM_ERR_ACCURACY,
-                         "the response needs about %.0f unknowns a component; %d can be solved",
-                         size, SPECTRUM_SIZE_MAX_QUADRATIC);
-    return fault_set(fault, STRUM_ERR_ACCURACY,
-                     "the response needs more than %d unknowns a component (error %.1e)",
-                     SPECTRUM_SIZE_MAX_QUADRATIC, error);
+    const int modes = (int)ceil(count);
+    const strum_status status = grow(f, coordinate_linear(&f->cable), modes, fault);
+    const coordinate other = spectrum_coordinate(&f->cable, plane, modes);
+    return status == STRUM_ERR_ACCURACY && other.stretch != 0 ? grow(f, other, modes, fault)
+                                                              : status;
 }
 
 strum_status strum_forced_make(const strum_cable *cable, double frequency_max, bool in_plane,
@@ -222,16 +242,10 @@ strum_status strum_forced_make(const strum_cable *cable, double frequency_max, b
     if (f == NULL)
         return fault_set(fault, STRUM_ERR_MEMORY, "out of memory");
     f->cable = *cable;
-    f->coordinate = coordinate_linear(cable);
     f->frequency_max = frequency_max;
     f->in_plane = in_plane;
     f->out_of_plane = out_of_plane;
     f->proportional = inplane_proportional(cable);
-    double cosh_chi, c, s;
-    inplane_frame_at(&f->coordinate, 1, &cosh_chi, &c, &s);
-    f->end[0][0] = f->end[1][1] = c;
-    f->end[0][1] = s;
-    f->end[1][0] = -s;
     status = make(f, fault);
     if (status != STRUM_OK)
         strum_forced_free(&f);

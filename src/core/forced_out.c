@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Out of plane V_chi = -R cosh W, W_chi = e V with e = 1 + kappa_n cosh and R = m_n w^2 - i
- * eta_n w (outplane.c). W = lift ((1 + x)/2 + sum w_k q_k), k >= 1: (K/mu - R M) w = R g -
- * l/mu, K = INT p p/e, l = INT p/(2 e).
+ * eta_n w (outplane.c). W = lift ((1 + x)/2 + sum w_k q_k), k >= 1: (K - R M) w = R g - l
+ * with K = INT p p/(e chi_x), M = INT q q cosh chi_x, and g and l the same of the lifting.
  */
 #include <math.h>
 #include <string.h>
@@ -14,7 +14,7 @@ strum_status forced_out_make(strum_forced *f)
 {
     arena *a = &f->memory;
     basis b;
-    strum_status status = basis_make(f->size, M_PI_2 / f->cable.mu, false, a, &b);
+    strum_status status = basis_make(f->size, coordinate_pole(&f->coordinate), false, a, &b);
     if (status != STRUM_OK)
         return status;
     const size_t n = (size_t)f->size - 1, points = (size_t)b.points;
@@ -29,21 +29,22 @@ strum_status forced_out_make(strum_forced *f)
     double *slopes = w + points * n, *k = m + n * n;
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < points; i++) {
-            const double c = cosh(f->cable.chi_m + f->cable.mu * b.x[i]);
-            const double inertia = b.w[i] * f->cable.mu * c;
-            const double stiffness = b.w[i] / (1 + f->cable.kappa_n * c);
+            const double c = cosh(f->cable.chi_m + coordinate_offset(&f->coordinate, b.x[i]));
+            const double slope = coordinate_slope(&f->coordinate, b.x[i]);
+            const double inertia = b.w[i] * slope * c;
+            const double stiffness = b.w[i] / (slope * (1 + f->cable.kappa_n * c));
             const double q = b.q[(j + 1) * points + i], p = b.p[(j + 1) * points + i];
             w[i + j * points] = sqrt(inertia) * q;
             slopes[i + j * points] = sqrt(stiffness) * p;
             f->out_inertia[j] += inertia * q * (1 + b.x[i]) / 2;
-            f->out_stretch[j] += stiffness * p / 2 / f->cable.mu;
+            f->out_stretch[j] += stiffness * p / 2;
         }
     linalg_gram((int)n, b.points, w, b.points, m, (int)n);
     linalg_gram((int)n, b.points, slopes, b.points, k, (int)n);
     return linalg_symmetric((int)n, m, (int)n, k, (int)n, (int)n, f->out_nu, f->out_v, a);
 }
 
-/* v.(R g - l/mu) */
+/* v.(R g - l) */
 static double _Complex share_of(const strum_forced *f, int j, double _Complex r)
 {
     const int n = f->size - 1;
@@ -67,14 +68,14 @@ strum_status forced_out_solve(const strum_forced *f, double frequency, double _C
     for (int j = 0; j < n; j++) {
         const double *v = f->out_v + (size_t)j * (size_t)n;
         const double _Complex share = share_of(f, j, r);
-        const double _Complex distance = 1 - r * f->out_nu[j] * f->cable.mu;
+        const double _Complex distance = 1 - r * f->out_nu[j];
         if (cabs(distance) < 2 * RESONANCE_WIDTH) {
             if (at != NULL)
                 *at = (strum_resonance){.plane = STRUM_OUT_OF_PLANE,
                                         .frequency = forced_out_frequency(f, j)};
             return STRUM_ERR_METHOD;
         }
-        const double _Complex factor = f->cable.mu * lift * share / distance;
+        const double _Complex factor = lift * share / distance;
         for (int i = 0; i < n; i++)
             response->w[i + 1] += v[i] * factor;
     }
@@ -83,14 +84,14 @@ strum_status forced_out_solve(const strum_forced *f, double frequency, double _C
 
 double forced_out_frequency(const strum_forced *f, int j)
 {
-    return 1 / sqrt(f->out_nu[j] * f->cable.mu * f->cable.mass_n);
+    return 1 / sqrt(f->out_nu[j] * f->cable.mass_n);
 }
 
 double forced_out_residue(const strum_forced *f, int j, double _Complex lift, double *table)
 {
     const int n = f->size - 1;
     const double *v = f->out_v + (size_t)j * (size_t)n;
-    const double _Complex share = share_of(f, j, 1 / (f->out_nu[j] * f->cable.mu));
+    const double _Complex share = share_of(f, j, 1 / f->out_nu[j]);
     double largest = 0;
     for (int i = 0; i <= 8 * f->size; i++) {
         double w = 0;
@@ -99,6 +100,6 @@ double forced_out_residue(const strum_forced *f, int j, double _Complex lift, do
             w += v[k] * table[f->size + k + 1];
         largest = fmax(largest, fabs(w));
     }
-    /* 1 - R nu mu -> -2 delta */
-    return largest * f->cable.mu * cabs(share * lift) / 2;
+    /* 1 - R nu -> -2 delta */
+    return largest * cabs(share * lift) / 2;
 }

@@ -140,7 +140,8 @@ strum_status strum_periodic_peak_find(strum_response *const *responses, const in
                 phase = 0;
             if (found > largest * (1 + TIED) ||
                 (found > largest * (1 - TIED) && phase < peak->phase - TIED))
-                *peak = (strum_periodic_peak){s.value, f->cable.chi_m + f->cable.mu * x, phase};
+                *peak = (strum_periodic_peak){
+                    s.value, f->cable.chi_m + coordinate_offset(&f->coordinate, x), phase};
         }
     arena_free(&a);
     return STRUM_OK;

@@ -84,17 +84,21 @@ void response_tension(const strum_response *r, double x, double _Complex *tensio
     *tension = t[0] * force[0] + t[1] * force[1];
     /* dt/dchi = n/cosh chi */
     *slope = r->scale * (t[0] * derivative[0] + t[1] * derivative[1]) +
-             r->forced->cable.mu / cosh_chi * (t[0] * force[1] - t[1] * force[0]);
+             coordinate_slope(&r->forced->coordinate, x) / cosh_chi *
+                 (t[0] * force[1] - t[1] * force[0]);
 }
+
+/* Rounding of x(chi) at an end. */
+#define AT_END 1e-14
 
 void strum_response_at(const strum_response *r, double chi, strum_forced_point *point)
 {
-    const strum_cable *cable = &r->forced->cable;
-    const double x = fmin(fmax((chi - cable->chi_m) / cable->mu, -1), 1);
+    const coordinate *along = &r->forced->coordinate;
+    const double x = coordinate_x(along, chi);
     double cosh_chi, t[2];
     double _Complex force[2], slope[2], w = r->lift * (1 + x) / 2;
     force_at(r, x, &cosh_chi, t, force, slope);
-    const double scale = 1 / (cable->mu * cosh_chi);
+    const double scale = 1 / (coordinate_slope(along, x) * cosh_chi);
     point->chi = chi;
     point->tension = t[0] * force[0] + t[1] * force[1];
     point->tangential = r->inverse_t * scale * (t[0] * slope[0] + t[1] * slope[1]);
@@ -103,9 +107,9 @@ void strum_response_at(const strum_response *r, double chi, strum_forced_point *
         w += r->w[k] * r->table[r->forced->size + k];
     point->out_of_plane = w;
     /* the ends, which the force form only meets to rounding */
-    if (x == -1)
+    if (x < -1 + AT_END)
         point->tangential = point->normal = point->out_of_plane = 0;
-    if (x == 1) {
+    if (x > 1 - AT_END) {
         point->tangential = r->motion.tangential;
         point->normal = r->motion.normal;
         point->out_of_plane = r->motion.out_of_plane;
@@ -198,5 +202,5 @@ void strum_response_peak(const strum_response *r, strum_peak *peak)
     double _Complex tension, slope;
     response_tension(r, x, &tension, &slope);
     peak->phase = carg(tension);
-    peak->chi = f->cable.chi_m + f->cable.mu * x;
+    peak->chi = f->cable.chi_m + coordinate_offset(&f->coordinate, x);
 }

@@ -123,14 +123,27 @@ int spectrum_first_size(const strum_cable *cable, const coordinate *x, strum_pla
                      0.6 * fabs(cable->chi_m));
 }
 
-/* Only what is both large and made much smaller is worth another coordinate. */
+/* 2.5 keeps the lowest point, where the coefficients vary most, in sight of the functions. */
+#define STRETCH 2.5
+/* Rounding grows with the range of cosh chi in the integrals' weights; from here on it shows,
+ * and a stretched coordinate takes a root of it: this one where the lowest point lies well
+ * inside. */
+#define CHI_STEEP     9
+#define STRETCH_STEEP 5
+
+/* Another coordinate is worth it for what is both large and made much smaller, and for digits.
+ */
 coordinate spectrum_coordinate(const strum_cable *cable, strum_plane plane, int count)
 {
-    const coordinate linear = coordinate_linear(cable), stretched = coordinate_stretched(cable);
+    const coordinate linear = coordinate_linear(cable);
+    const coordinate stretched = coordinate_stretched(cable, STRETCH);
     const int size = spectrum_first_size(cable, &linear, plane, count);
-    const bool worth =
-        size > 120 && spectrum_first_size(cable, &stretched, plane, count) < 0.75 * size;
-    return worth ? stretched : linear;
+    if (size > 120 && spectrum_first_size(cable, &stretched, plane, count) < 0.75 * size)
+        return stretched;
+    if (fabs(cable->chi_m) + cable->mu < CHI_STEEP)
+        return linear;
+    return coordinate_rate(&stretched) > 0.02 ? stretched
+                                              : coordinate_stretched(cable, STRETCH_STEEP);
 }
 
 /* Largest relative difference of each root of `list` to the nearest of `other`. */
@@ -278,6 +291,8 @@ static strum_status solve(strum_spectrum *sp, int count, strum_fault *fault)
                          : SPECTRUM_SIZE_MAX_QUADRATIC;
     sp->coordinate = spectrum_coordinate(&sp->cable, sp->plane, want);
     const bool slim = by_displacement(&sp->cable, sp->plane, sp->shapes);
+    /* what converges slowly needs more of a difference between the two sizes */
+    const bool steep = sp->coordinate.stretch != 0;
     /* shapes converge at half the rate of frequencies */
     double block = slim ? displacement_first_size(&sp->cable, want)
                         : spectrum_first_size(&sp->cable, &sp->coordinate, sp->plane, want) *
@@ -286,6 +301,7 @@ static strum_status solve(strum_spectrum *sp, int count, strum_fault *fault)
     while (block < most) {
         const int inner = (int)block;
         const int size = inner + (slim         ? displacement_margin(&sp->cable, inner)
+                                  : steep      ? inner / 4
                                   : inner > 40 ? inner / 10
                                                : 4);
         const strum_status status = attempt(sp, size, inner, want, count, tolerance, &excess);
