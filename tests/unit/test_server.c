@@ -83,15 +83,19 @@ static int start(void **state)
     text faults = {0};
     char fault[256];
     settings_action action;
-    char *argv[] = {(char[]){"strumd"}, (char[]){"--listen=127.0.0.1:0"},
-                    (char[]){"--workers=1"}, (char[]){"--log-requests=none"}, NULL};
+    char *argv[] = {(char[]){"strumd"},
+                    (char[]){"--listen=127.0.0.1:0"},
+                    (char[]){"--workers=1"},
+                    (char[]){"--log-requests=none"},
+                    (char[]){"--store=unix:/nowhere/socket"},
+                    NULL};
     char *environment[] = {NULL};
     sigset_t ends;
     sigemptyset(&ends);
     sigaddset(&ends, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &ends, NULL);
     *state = r;
-    if (!r || !settings_read(&r->settings, 4, argv, environment, &action, &faults))
+    if (!r || !settings_read(&r->settings, 5, argv, environment, &action, &faults))
         return -1;
     r->signals = signalfd(-1, &ends, SFD_NONBLOCK | SFD_CLOEXEC);
     if (!server_start(&r->server, &r->settings, fault)) {
@@ -217,6 +221,31 @@ static void a_refusal_without_memory(void **state)
     survives(*state, "{\"rise_to_spam\":", ",\"sag_parameter\":7}", 400);
 }
 
+/* A worker looks for it in the shared store. */
+static void a_key_without_memory(void **state)
+{
+    const running *r = *state;
+    char question[256];
+    snprintf(question, sizeof question, "GET /v1/results/%064d HTTP/1.1\r\nHost: a\r\n\r\n", 0);
+    for (int once = 0; once < 2; once++) {
+        only_once = once;
+        int answered = 0;
+        for (long n = 0; answered < 3; n++) {
+            assert_true(n < 200);
+            const int fd = dial(r);
+            assert_int_equal(exchange(fd, question), 404);
+            allocations = 0;
+            fails_from = n;
+            const int status = exchange(fd, question);
+            fails_from = NEVER;
+            if (status != 404 && status != 500 && status != 503 && status != 0)
+                fail_msg("status %d where allocation %ld fails", status, n);
+            close(fd);
+            answered = status == 404 ? answered + 1 : 0;
+        }
+    }
+}
+
 /* A server that cannot begin says so. */
 static void a_start_without_memory(void **state)
 {
@@ -244,6 +273,7 @@ int main(void)
         cmocka_unit_test(an_answer_without_memory),
         cmocka_unit_test(an_answer_with_one_failure),
         cmocka_unit_test(a_refusal_without_memory),
+        cmocka_unit_test(a_key_without_memory),
     };
     return cmocka_run_group_tests(tests, start, stop);
 }
