@@ -80,6 +80,8 @@ strum_status strum_catenary_from_chord(double epsilon, double inclination, doubl
 /* xi = sgn(chi)(cosh chi - 1) and its inverse, without cancellation. */
 double strum_xi_of_chi(double chi);
 double strum_chi_of_xi(double xi);
+/* Length (unstretched) from end 1 to where the cable is parallel to its chord, in a. */
+double strum_catenary_parallel(const strum_catenary *catenary);
 /* Largest vertical distance between chord and cable, in a. */
 double strum_catenary_sag(const strum_catenary *catenary);
 /* Position (in a) from end 1 of the point with slope parameter chi. */

@@ -331,6 +331,16 @@ static double above_tangent(double kappa, double chi, double chi_0)
     return cosh(chi_0) * rise + sinh(chi_0) * excess + 0.5 * kappa * ds * ds;
 }
 
+double strum_catenary_parallel(const strum_catenary *c)
+{
+    /* sinh(chi_m) = rise/span chord_ratio: what it lacks of rise/span, without cancellation */
+    const double half = c->kappa * c->unstretched_length / 2, mu = c->mu;
+    const double beyond = c->rise / c->span *
+                          (mu * sinhc_less_one(mu) + half * 2 * pow(sinh(mu / 2), 2)) /
+                          (sinh(mu) + half * cosh(mu));
+    return 2 * cosh(c->chi_m - mu / 2) * sinh(mu / 2) + beyond;
+}
+
 double strum_catenary_sag(const strum_catenary *c)
 {
     /* Deepest where the tangent is parallel to the chord; the chord is there as far above the

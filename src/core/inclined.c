@@ -53,8 +53,7 @@ strum_status strum_inclined_statics_find(const strum_inclined *cable, strum_incl
     const strum_catenary *p = &s->profile;
     const double length = cable->epsilon / cosine;
     const double chi_1 = p->chi_m - p->mu, chi_2 = p->chi_m + p->mu;
-    const double chi_a = asinh(tan(cable->inclination));
-    s->s_a = 2 * cosh((chi_a + chi_1) / 2) * sinh((chi_a - chi_1) / 2) / length;
+    s->s_a = strum_catenary_parallel(p) / length;
     s->tension_bottom = cosine * cosh(chi_1);
     s->tension_top = cosine * cosh(chi_2);
     s->curvature_bottom = length / pow(cosh(chi_1), 2);
@@ -140,7 +139,8 @@ static strum_status keep_spectrum(strum_inclined_modes *m, const strum_spectrum 
     m->along = sp->coordinate;
     m->forces = arena_doubles(&m->memory, 2 * size * (size_t)m->count);
     m->constants = arena_doubles(&m->memory, 2 * (size_t)m->count);
-    if (m->forces == NULL || m->constants == NULL)
+    m->stretch = arena_doubles(&m->memory, size * (size_t)m->count);
+    if (m->forces == NULL || m->constants == NULL || m->stretch == NULL)
         return STRUM_ERR_MEMORY;
     for (int i = 0; i < m->count; i++) {
         const root *r = &sp->roots[i];
@@ -166,6 +166,8 @@ static strum_status solve_full(strum_inclined_modes *m, strum_fault *fault)
         return status;
     status = keep_spectrum(m, spectrum);
     strum_spectrum_free(&spectrum);
+    if (status == STRUM_OK)
+        status = inclined_stretch(m);
     return status == STRUM_OK ? status : fault_set(fault, status, "out of memory");
 }
 

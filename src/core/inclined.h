@@ -26,6 +26,7 @@ struct strum_inclined_modes {
     double *unit;         /* a shape's values are divided by it */
     double *forces;       /* full: size x 2 a mode, coefficients of its force's q_k */
     double *constants;    /* full: 2 a mode, the force's constants */
+    double *stretch;      /* full: size a mode, du/dx in p_k */
     inclined_wave *waves; /* approximations */
     basis rule;           /* Airy: for inclined_phase */
     coordinate along;     /* from x to chi */
@@ -48,6 +49,8 @@ double inclined_x_of_s(const strum_inclined_modes *m, double s);
  * + mode]. */
 strum_status inclined_sample(const strum_inclined_modes *m, int first, int last, int points,
                              const double *x, strum_inclined_point *out, arena *scratch);
+/* Full: du/dx of all modes, which inclined_sample needs. */
+strum_status inclined_stretch(strum_inclined_modes *m);
 /* Energies, shares, maxima and units of all modes. */
 strum_status inclined_measure(strum_inclined_modes *m);
 

@@ -95,12 +95,14 @@ static double interpolated(const survey *s, int mode, int component, int i, doub
     return above / below;
 }
 
-/* Where, in steps from sample `i`, its polynomial has the largest magnitude (golden section).
- */
+/* Where, in steps from sample `i`, its polynomial has the largest magnitude (golden section). A
+ * tension that falls steeply enough from a support has its peak between that and the first
+ * sample. */
 static double top_of(const survey *s, int mode, int component, int i)
 {
     const double golden = 0.6180339887498949;
-    double low = -1, high = 1, left = 1 - 2 * golden, right = 2 * golden - 1;
+    double low = i > 0 ? -1 : 0, high = i < s->points - 1 ? 1 : 0;
+    double left = high - golden * (high - low), right = low + golden * (high - low);
     double at_left = fabs(interpolated(s, mode, component, i, left));
     double at_right = fabs(interpolated(s, mode, component, i, right));
     for (int pass = 0; pass < 32; pass++)
@@ -117,7 +119,10 @@ static double top_of(const survey *s, int mode, int component, int i)
             right = low + golden * (high - low);
             at_right = fabs(interpolated(s, mode, component, i, right));
         }
-    return (low + high) / 2;
+    const double top = (low + high) / 2;
+    return fabs(interpolated(s, mode, component, i, top)) > fabs(sampled(s, mode, component, i))
+               ? top
+               : 0;
 }
 
 /* The largest value of a component along the cable, with its sign; of values that agree to 1e-9
@@ -136,8 +141,7 @@ static strum_status largest(const survey *s, int mode, int component, double *be
                 (i > 0 && here <= fabs(sampled(s, mode, component, i - 1))) ||
                 (i < n - 1 && here < fabs(sampled(s, mode, component, i + 1))))
                 continue;
-            const bool end = i == 0 || i == n - 1;
-            const double t = end ? 0 : top_of(s, mode, component, i);
+            const double t = top_of(s, mode, component, i);
             const double top = fabs(interpolated(s, mode, component, i, t));
             height = fmax(height, top);
             if (pass == 0 || top < height * (1 - 1e-6))
