@@ -109,7 +109,7 @@ int strum_inclined_count(const strum_inclined_modes *modes);
 /* Mode `index` in 0..count-1; owned by `modes`. */
 const strum_inclined_mode *strum_inclined_mode_at(const strum_inclined_modes *modes, int index);
 /* The low root that the Airy determinant and (21) have and the cable has not, which is left out
- * of the modes; 0 where there is none. */
+ * of the modes; 0 where there is none, or none above 1e-3: rounding hides a lower one. */
 double strum_inclined_spurious(const strum_inclined_modes *modes);
 
 /* Shape of mode `index` at `points` >= 2 equally spaced values of s, ends included. */

@@ -5,6 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Below it the characteristic functions round away too much of the spurious root to tell it. */
+#define SPURIOUS_MIN 1e-3
+
 static strum_status check(const strum_inclined *c, strum_fault *fault)
 {
     if (!(c->epsilon >= STRUM_EPSILON_MIN && c->epsilon <= STRUM_EPSILON_MAX))
@@ -120,6 +123,12 @@ double inclined_x_of_s(const strum_inclined_modes *m, double s)
     const double offset = asinh(sinh_difference);
     return m->along.stretch == 0 ? fmin(fmax(offset / p->mu, -1), 1)
                                  : coordinate_x(&m->along, p->chi_m + offset);
+}
+
+double inclined_spacing(const strum_inclined_modes *m)
+{
+    const bool airy = m->model <= STRUM_INCLINED_AIRY_TANGENT; /* the others lack those waves */
+    return 1 / (1 + (airy ? sqrt(m->cable.mass_ratio / m->statics.stiffness) : 0));
 }
 
 strum_status inclined_roots(const strum_inclined_modes *m, int count, inclined_wave *waves,
@@ -270,5 +279,5 @@ const strum_inclined_mode *strum_inclined_mode_at(const strum_inclined_modes *m,
 
 double strum_inclined_spurious(const strum_inclined_modes *m)
 {
-    return m->spurious;
+    return m->spurious > SPURIOUS_MIN ? m->spurious : 0;
 }

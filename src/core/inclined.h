@@ -61,6 +61,8 @@ strum_status inclined_airy_roots(const strum_inclined_modes *m, int count, incli
                                  double *spurious);
 strum_status inclined_closed_roots(const strum_inclined_modes *m, int count,
                                    inclined_wave *waves, double *spurious);
+/* Length in kL that holds few of its roots: 1, less where longitudinal waves are slow. */
+double inclined_spacing(const strum_inclined_modes *m);
 /* Its characteristic function, real on the real axis and analytic. */
 double _Complex inclined_airy_function(const strum_inclined_modes *m, double _Complex kl);
 double _Complex inclined_closed_function(const strum_inclined_modes *m, double _Complex kl);

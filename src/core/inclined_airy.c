@@ -58,12 +58,16 @@ static void advance(const strum_inclined_modes *m, double _Complex kl, double fr
     state[1] = slope / h;
 }
 
+/* Largest wave number of v from 0 to `to`. */
+static double steepest(const strum_inclined_modes *m, double _Complex kl, double to)
+{
+    return sqrt(fmax(cabs(stiffness_deficit(m, kl, 0)), cabs(stiffness_deficit(m, kl, to))));
+}
+
 /* Steps from 0 to `to` that `advance` can take. */
 static int steps_to(const strum_inclined_modes *m, double _Complex kl, double to)
 {
-    const double largest =
-        fmax(cabs(stiffness_deficit(m, kl, 0)), cabs(stiffness_deficit(m, kl, to)));
-    return to > 0 ? (int)ceil(2 * to * sqrt(largest)) + 1 : 0;
+    return to > 0 ? (int)ceil(2 * to * steepest(m, kl, to)) + 1 : 0;
 }
 
 /* Angle by which the rotation in a real matrix's polar decomposition turns clockwise. */
@@ -72,24 +76,27 @@ static double turn(complex2 a)
     return atan2(creal(a[0][1] - a[1][0]), creal(a[0][0] + a[1][1]));
 }
 
-/* Transfer of (v, v') along the whole cable, in the units `g` of (v, v'); `turns` (may be NULL)
- * gets the lifted angle. */
-static void transfer(const strum_inclined_modes *m, double _Complex kl,
-                     const double _Complex g[2], complex2 out, double *turns)
+/* Transfer of (v, v') along the whole cable; `turns` (may be NULL) gets the lifted angle in
+ * units in which no step turns it by much. */
+static void transfer(const strum_inclined_modes *m, double _Complex kl, complex2 out,
+                     double *turns)
 {
     const int steps = steps_to(m, kl, 1);
-    double _Complex columns[2][2] = {{g[0], 0}, {0, g[1]}};
+    const double unit = fmax(1, steepest(m, kl, 1));
+    double _Complex columns[2][2] = {{1, 0}, {0, unit}};
     double before = 0, sum = 0;
     for (int i = 0; i < steps; i++) {
         for (int j = 0; j < 2; j++) {
             advance(m, kl, (double)i / steps, (i + 1.0) / steps, columns[j]);
-            out[0][j] = columns[j][0] / g[0];
-            out[1][j] = columns[j][1] / g[1];
+            out[0][j] = columns[j][0];
+            out[1][j] = columns[j][1] / unit;
         }
         const double now = turn(out);
         sum += remainder(now - before, 2 * M_PI);
         before = now;
     }
+    out[0][1] /= unit;
+    out[1][0] *= unit;
     if (turns != NULL)
         *turns = sum;
 }
@@ -112,11 +119,11 @@ static void end_matrix(const strum_inclined_modes *m, double _Complex kl, comple
     units_at(m, kl, false, g0);
     units_at(m, kl, true, g1);
     double along = 0;
-    transfer(m, kl, g0, out, turns != NULL ? &along : NULL);
+    transfer(m, kl, out, turns != NULL ? &along : NULL);
     for (int i = 0; i < 4; i++)
-        out[i / 2][i % 2] *= g0[i / 2] / g1[i / 2];
+        out[i / 2][i % 2] *= g0[i % 2] / g1[i / 2];
     const double _Complex phase = kl * m->statics.phase;
-    if (turns != NULL)
+    if (turns != NULL) /* positive units change the angle by less than half a turn */
         *turns = creal(phase) + along + remainder(turn(out) - along, 2 * M_PI);
     const double _Complex c = ccos(phase), s = csin(phase);
     out[0][0] -= c;
@@ -187,10 +194,11 @@ static double zero(const strum_inclined_modes *m, int k, double low)
 {
     while (real_function(low, m) == 0) /* a zero found before */
         low *= 1 + 4e-16;
-    double high = low + M_PI;
+    const double step = M_PI * inclined_spacing(m);
+    double high = low + step;
     while (zeros_below(m, high) < k) {
         low = high;
-        high += M_PI;
+        high += step;
     }
     while (high - low > 4e-16 * high) {
         const int below = zeros_below(m, low), above = zeros_below(m, high);
@@ -208,12 +216,7 @@ static double zero(const strum_inclined_modes *m, int k, double low)
 strum_status inclined_airy_roots(const strum_inclined_modes *m, int count, inclined_wave *waves,
                                  double *spurious)
 {
-    const strum_inclined *c = &m->cable;
-    /* where (21) has it, to leading order; the determinant is negative below it */
-    const double slope = c->epsilon * sin(c->inclination);
-    const double guess =
-        2 * pow(49.0 / 64 * slope * slope / (1.0 / 3 + 4 / c->lambda_squared), 0.25);
-    double low = 0.05 * M_PI;
+    double low = 0.05 * M_PI * inclined_spacing(m);
     while (zeros_below(m, low) > 0)
         low /= 2;
     for (int k = 1; k <= count; k++) {
@@ -222,9 +225,13 @@ strum_status inclined_airy_roots(const strum_inclined_modes *m, int count, incli
         if (zeros_below(m, waves[k - 1].kl) <= k)
             low = waves[k - 1].kl;
     }
-    *spurious = 0;
-    if (guess > 0 && zeros_below(m, guess / 2) == -1 && zeros_below(m, 2 * guess) == 0)
-        *spurious = bracket_root(real_function, m, guess / 2, 2 * guess);
+    /* the determinant is negative below the spurious one, a level cable's too */
+    double high = 0.9 * waves[0].kl;
+    for (low = high / 2; zeros_below(m, low) == 0 && low > 1e-9 * high; low /= 2)
+        high = low;
+    *spurious = zeros_below(m, low) == -1 && zeros_below(m, high) == 0
+                    ? bracket_root(real_function, m, low, high)
+                    : 0;
     return STRUM_OK;
 }
 

@@ -10,6 +10,8 @@
 #define CLUSTER 1e-7
 /* Modes beyond the last that are asked of the second method, to find a gap to count in. */
 #define BEYOND 8
+/* Most values of a characteristic function that a count may take: 200 modes take some 4000. */
+#define EVALUATIONS 30000
 
 /* The number of modes, `count` or a few more, after which there is a gap: kl[n-1] << kl[n]. */
 static int gap_after(const double *kl, int count)
@@ -66,46 +68,51 @@ static double _Complex characteristic(const strum_inclined_modes *m, double _Com
                                                    : inclined_closed_function(m, kl);
 }
 
-/* Change of the function's argument from a to b, in steps that turn it little. */
-static double turning(const strum_inclined_modes *m, double _Complex a, double _Complex b,
-                      double longest)
+/* A path of the function's argument, in steps that turn it little. */
+typedef struct contour {
+    const strum_inclined_modes *m;
+    double longest; /* step */
+    int left;       /* evaluations, before it is given up */
+} contour;
+
+static double turning(contour *c, double _Complex a, double _Complex b)
 {
     double sum = 0;
-    double _Complex here = a, before = characteristic(m, a);
-    double step = longest;
-    while (here != b) {
+    double _Complex here = a, before = characteristic(c->m, a);
+    double step = c->longest;
+    for (; here != b && c->left > 0; c->left--) {
         const double rest = cabs(b - here);
         const double _Complex next = step >= rest ? b : here + step / rest * (b - here);
-        const double _Complex now = characteristic(m, next);
+        const double _Complex now = characteristic(c->m, next);
         const double turned = carg(now / before);
-        if (fabs(turned) > 0.5 && step > 1e-9) {
+        if (fabs(turned) > 0.5 && step > 1e-8 * c->longest) {
             step /= 2;
             continue;
         }
         sum += turned;
         here = next;
         before = now;
-        step = fmin(2 * step, longest);
+        step = fmin(2 * step, c->longest);
     }
     return sum;
 }
 
 /* Zeros with low < Re < high near the real axis, where the function is real: the lower half of
- * the contour turns it as the upper half does. */
+ * the contour turns it as the upper half does. -1: they cannot be counted. */
 static int zeros_inside(const strum_inclined_modes *m, double low, double high)
 {
-    const double height = 0.3,
-                 longest = 0.25 / (1 + sqrt(m->cable.mass_ratio / m->statics.stiffness));
-    const double sum = turning(m, high, CMPLX(high, height), longest) +
-                       turning(m, CMPLX(high, height), CMPLX(low, height), longest) +
-                       turning(m, CMPLX(low, height), low, longest);
-    return (int)round(sum / M_PI);
+    const double unit = inclined_spacing(m), height = 0.3 * unit;
+    contour c = {m, 0.25 * unit, EVALUATIONS};
+    const double sum = turning(&c, high, CMPLX(high, height)) +
+                       turning(&c, CMPLX(high, height), CMPLX(low, height)) +
+                       turning(&c, CMPLX(low, height), low);
+    return c.left > 0 ? (int)round(sum / M_PI) : -1;
 }
 
 /* From kl to the nearest zero, by the parabola through three points. */
 static double distance(const strum_inclined_modes *m, double kl)
 {
-    const double h = 1e-3, f = creal(characteristic(m, kl));
+    const double h = 1e-3 * inclined_spacing(m), f = creal(characteristic(m, kl));
     const double after = creal(characteristic(m, kl + h));
     const double before = creal(characteristic(m, kl - h));
     const double slope = (after - before) / (2 * h), bend = (after - 2 * f + before) / (h * h);
@@ -127,16 +134,19 @@ static strum_status verify_approximation(const strum_inclined_modes *m, strum_ve
     for (int i = 0; i < m->count + BEYOND; i++)
         kl[i] = waves[i].kl;
     const int n = gap_after(kl, m->count);
-    v->modes_expected =
-        zeros_inside(m, (spurious + kl[0]) / 2, (kl[n - 1] + kl[n]) / 2) - (n - m->count);
+    const int inside = zeros_inside(m, (spurious + kl[0]) / 2, (kl[n - 1] + kl[n]) / 2);
+    if (inside < 0)
+        return STRUM_ERR_ACCURACY;
+    v->modes_expected = inside - (n - m->count);
+    const double near = 0.1 * inclined_spacing(m);
     for (int i = 0; i < m->count; i++) {
         const double here = m->modes[i].kl;
         const double nearby =
-            fmax(cabs(characteristic(m, here + 0.1)), cabs(characteristic(m, here - 0.1)));
+            fmax(cabs(characteristic(m, here + near)), cabs(characteristic(m, here - near)));
         v->max_residual = fmax(v->max_residual, cabs(characteristic(m, here)) / nearby);
         v->max_relative_difference = fmax(v->max_relative_difference, distance(m, here) / here);
         /* twice the same zero is one, unless it is a double one: flat */
-        const bool flat = cabs(characteristic(m, here + 1e-3)) < 1e-3 * nearby;
+        const bool flat = cabs(characteristic(m, here + near / 100)) < 1e-3 * nearby;
         v->modes_found -= i > 0 && here - m->modes[i - 1].kl < 1e-9 * here && !flat;
     }
     return STRUM_OK;
