@@ -367,6 +367,31 @@ static void guesses_are_certified(void **state)
     strum_taut_free(&after);
 }
 
+/* A guess that leads to the conjugate of a known root leads to no other one. */
+static void a_conjugate_is_no_other_root(void **state)
+{
+    (void)state;
+    const strum_taut_component parts[3] = {
+        part_cable(5000, 1, 16.8, 0), part_ground(0.0, 131.0), part_cable(5000, 1, 33.2, 0)};
+    strum_taut *chain = fixed_chain(parts, 3);
+    strum_taut_roots *full = roots_of(chain, 0, 1.5, 11.0, 22.0), *roots;
+    assert_int_equal(full->count, 2);
+    const strum_taut_root guesses[2] = {
+        full->roots[0], {0, -full->roots[0].frequency, full->roots[0].decay, INFINITY}};
+    const strum_taut_query query = {.lowest = 1.5,
+                                    .highest = 11.0,
+                                    .max_decay = 22.0,
+                                    .guesses = guesses,
+                                    .guess_count = 2};
+    assert_int_equal(strum_taut_solve(chain, &query, &roots, NULL), STRUM_OK);
+    assert_int_equal(roots->count, 2);
+    for (size_t k = 0; k < 2; k++)
+        check_relative(roots->roots[k].frequency, full->roots[k].frequency, 1e-12);
+    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(&full);
+    strum_taut_free(&chain);
+}
+
 /* Free at both ends: a rigid motion without frequency; drag makes its velocity die out. */
 static void rigid_motions(void **state)
 {
@@ -487,6 +512,7 @@ int main(void)
         cmocka_unit_test(exceptional_points_are_recognised),
         cmocka_unit_test(muller_is_watched),
         cmocka_unit_test(guesses_are_certified),
+        cmocka_unit_test(a_conjugate_is_no_other_root),
         cmocka_unit_test(rigid_motions),
         cmocka_unit_test(random_chains_agree_with_a_second_method),
         cmocka_unit_test(a_search_can_be_cancelled),
