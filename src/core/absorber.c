@@ -12,6 +12,9 @@
 #define STARTS STRUM_ABSORBER_OPTIMA_MAX
 /* Places of the scan in one variable. */
 #define SCAN_ONE 65
+/* Places of one scan in several, for each of them; of any scan. */
+#define SCAN     100
+#define SCAN_MAX (SCAN * STRUM_ABSORBER_VARIABLES_MAX)
 /* Climbs that lead to the best optimum before it is believed to be the best of all. */
 #define CONFIRMED 3
 /* A variable whose bounds differ by more is searched by its logarithm. */
@@ -215,42 +218,34 @@ static double distance(int n, const double *a, const double *b)
     return most;
 }
 
-/* Keeps the best places of the scan that are apart from each other. */
-static void keep(place *best, int *count, const place *new, int n, double apart)
+static int by_value(const void *left, const void *right)
 {
-    int worst = -1;
-    for (int i = 0; i < *count; i++)
-        if (distance(n, best[i].t, new->t) < apart) {
-            if (new->value > best[i].value)
-                best[i] = *new;
-            return;
-        }
-    if (*count < STARTS) {
-        best[(*count)++] = *new;
-        return;
-    }
-    for (int i = 0; i < *count; i++)
-        if (worst < 0 || best[i].value < best[worst].value)
-            worst = i;
-    if (new->value > best[worst].value)
-        best[worst] = *new;
+    const place *l = left, *r = right;
+    return l->value > r->value ? -1 : l->value < r->value;
 }
 
-/* Places to climb from: the best of `points` of the sequence, from its number `first` on (one
- * variable: of its whole range). */
-static int scan(search *s, long first, long points, place *best)
+/* Places to climb from: of `points` of the sequence, from its number `first` on (one variable:
+ * of its whole range), those that have no better one within `apart`; the best of them. */
+static int scan(search *s, long first, long points, double apart, place *best)
 {
     const int n = s->problem->variables;
-    const double apart = n == 1 ? 1.5 / (double)(points - 1) : 0.1;
-    int count = 0;
-    for (long k = 0; k < points && search_goes_on(s); k++) {
-        place p = {.value = 0};
+    place all[SCAN_MAX];
+    int count = 0, seen = 0;
+    for (; seen < points && search_goes_on(s); seen++) {
+        place *p = &all[seen];
         if (n == 1)
-            p.t[0] = (double)k / (double)(points - 1);
+            p->t[0] = (double)seen / (double)(points - 1);
         else
-            sequence(n, first + k + 1, p.t);
-        p.value = search_trial(s, p.t);
-        keep(best, &count, &p, n, apart);
+            sequence(n, first + seen + 1, p->t);
+        p->value = search_trial(s, p->t);
+    }
+    qsort(all, (size_t)seen, sizeof *all, by_value);
+    for (int i = 0; i < seen && count < STARTS; i++) {
+        bool peak = true;
+        for (int k = 0; k < i && peak; k++)
+            peak = distance(n, all[k].t, all[i].t) > apart;
+        if (peak)
+            best[count++] = all[i];
     }
     return count;
 }
@@ -268,17 +263,11 @@ static void note(const strum_absorber_problem *p, const place *end, strum_absorb
     out->optima[at].damping_ratio = end->value;
 }
 
-static int by_value(const void *left, const void *right)
-{
-    const place *l = left, *r = right;
-    return l->value > r->value ? -1 : l->value < r->value;
-}
-
 /* One variable: a fine scan, and every peak of it that may be the highest. */
 static void run_one(search *s, strum_absorber_optimum *out)
 {
     place best[STARTS];
-    out->starts = scan(s, 0, SCAN_ONE, best);
+    out->starts = scan(s, 0, SCAN_ONE, 1.5 / (SCAN_ONE - 1), best);
     for (int i = 0; i < out->starts && search_goes_on(s); i++)
         best[i].value = climb_one(s, best[i].t, 1.0 / (SCAN_ONE - 1));
     for (int i = 0; i < out->starts; i++)
@@ -298,13 +287,14 @@ static int reached(const search *s, const place *ends, int count)
 static void run_several(search *s, strum_absorber_optimum *out)
 {
     const int n = s->problem->variables;
-    const long all = s->limit, points = (long)fmin(80.0 * n, 0.3 * (double)all);
+    const long all = s->limit, points = (long)fmin(SCAN * n, 0.3 * (double)all);
+    const double apart = 1.2 * pow((double)points, -1.0 / n);
     double best_before = 0;
     int times = 0;
     s->limit = (long)(0.85 * (double)all); /* the rest is for the end */
     for (int pass = 0; times < CONFIRMED && search_goes_on(s); pass++) {
         place best[STARTS];
-        const int starts = scan(s, pass * points, points, best);
+        const int starts = scan(s, pass * points, points, apart, best);
         for (int i = 0; i < starts && search_goes_on(s); i++)
             best[i].value = absorber_climb(s, best[i].t, 0.1, 6, 1e-3);
         qsort(best, (size_t)starts, sizeof *best, by_value);

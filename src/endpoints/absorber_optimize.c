@@ -220,19 +220,17 @@ static bool look_on(void *context, long evaluations, double best, const double *
 
 /* What an engineer should know of a place that is not an optimum in the usual sense. */
 static void warn_of_borders(const absorber_solving *s, const strum_absorber_optimum *best,
-                            const strum_taut_roots *roots)
+                            double frequency, size_t oscillating)
 {
     const absorber_request *r = s->r;
-    const int at = strum_absorber_limiting(roots);
-    const double frequency = at >= 0 ? roots->roots[at].frequency : NAN;
     if (best->damping_ratio > NO_LONGER_OSCILLATES)
         answer_warn(s->a, "the least damped mode is all but overdamped here: beyond, it no "
                           "longer oscillates, and its damping ratio has no maximum");
-    if (s->problem.mode_count > roots->count)
+    if (s->problem.mode_count > oscillating)
         answer_warn(s->a,
                     "%zu of the %zu modes asked do not oscillate here (overdamped, or their "
                     "decay is beyond bounds) and do not limit",
-                    s->problem.mode_count - roots->count, s->problem.mode_count);
+                    s->problem.mode_count - oscillating, s->problem.mode_count);
     if (r->modes.count == 0 &&
         (frequency < r->band[0] * (1 + BORDER) || frequency > r->band[1] * (1 - BORDER)))
         answer_warn(s->a, "the least damped mode lies on the border of the band: a little "
@@ -291,7 +289,14 @@ static bool respond(const void *data, answer *a)
         answer_warn(a, "max_evaluations (%lld) ended the search before it came to rest",
                     (long long)r->max_evaluations);
     }
-    warn_of_borders(&s, &best, roots);
+    const int limiting = strum_absorber_limiting(roots);
+    if (limiting >= 0) { /* what is answered is what the roots listed beside it say */
+        const strum_taut_root *root = &roots->roots[limiting];
+        best.damping_ratio = root->decay / hypot(root->frequency, root->decay);
+        best.loss_ratio = root->decay / root->frequency;
+    }
+    warn_of_borders(&s, &best, limiting >= 0 ? roots->roots[limiting].frequency : NAN,
+                    roots->count);
     const bool good = absorber_write(&s, &best, roots);
     strum_taut_roots_free(&roots);
     return good;
