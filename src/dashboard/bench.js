@@ -153,7 +153,7 @@ export function makeBench(endpoint, first, keptFirst) {
     const button = (word, act) => h('button', { type: 'button', onclick: act }, word);
     cite.replaceChildren(
       h('div', { class: 'exports' },
-        button('Keep to compare', keep),
+        !pictures.single && button('Keep to compare', keep),
         button('Copy citation', () => copy(citation, 'The citation', below)),
         button('Copy link', () => copy(link(), 'The link to this view', () => 'in the address bar')),
         button('Copy curl', () => copy(curl, 'The curl line', below)),

@@ -21,7 +21,7 @@ function branches(answer, key, label, title) {
   const curve = (words, points, more) => ({ label: words, x: points.map((point) => point.value), y: points.map((point) => point[key]), ...more });
   const numbered = sweep.branches.filter(({ mode }) => mode);
   const others = sweep.branches.filter(({ mode }) => !mode).flatMap(({ points }) => layers(points));
-  const series = [...numbered.map(({ mode, points }) => curve(`mode ${mode}`, points)),
+  const series = [...numbered.map(({ mode, points }) => curve(`mode ${mode}`, points, { colour: mode - 1 })),
     ...others.map((points, i) => curve(`on no branch${i ? `, ${i + 1}` : ''}`, points, { pointsOnly: true, colour: 3 }))].filter((one) => one.x.length);
   if (!series.length) return null;
   const best = result.optimum?.[variable];
@@ -39,6 +39,17 @@ function branches(answer, key, label, title) {
     marks: best === undefined ? [] : [{ x: best, label: `optimum ${brief(best, 5)}` }] };
 }
 
+/* With the branches of kept answers, dashed, where the same variable was swept. */
+function compared(answer, kept, ...how) {
+  const chart = branches(answer, ...how);
+  for (const one of chart ? kept : []) {
+    const other = branches(one.answer, ...how);
+    if (other?.x.label !== chart.x.label) continue;
+    chart.series.push(...other.series.filter(({ label }) => label !== 'required').map((curve) => ({ ...curve, label: `${one.label}, ${curve.label}`, dash: true })));
+  }
+  return chart;
+}
+
 export const absorber = {
   slow: true,
   hint: ({ result }) => (result.sweep ? '' : 'A sweep over one of the variables draws every branch of damping, with the optimum on it.'),
@@ -46,7 +57,7 @@ export const absorber = {
     { label: 'damping ratio at the optimum', value: result.damping_ratio, unit: '', more: Object.entries(result.optimum ?? {}).map(([name, value]) => `${name} = ${brief(value)}`).join(', ') },
     result.required_damping_ratio !== undefined && { label: 'required against vortex-induced vibration', value: result.required_damping_ratio, unit: '', more: result.met ? 'met' : 'not met' },
   ].filter((one) => one && one.value !== undefined),
-  pictures: (answer) => [branches(answer, 'damping_ratio', 'damping ratio', 'Damping of every branch'),
-    branches(answer, 'angular_frequency_rad_per_s', 'angular frequency, rad/s', 'Frequency of every branch')],
+  pictures: (answer, kept) => [compared(answer, kept, 'damping_ratio', 'damping ratio', 'Damping of every branch'),
+    compared(answer, kept, 'angular_frequency_rad_per_s', 'angular frequency, rad/s', 'Frequency of every branch')],
   sweeps: [],
 };

@@ -68,11 +68,14 @@ export const matrix = {
   headline: () => [],
   hint: ({ result }) => (result.matrices.filter((one) => one.angular_frequency.im === 0).length < 2
     ? 'Several real frequencies make a curve of t\u2081\u2082, whose zeros are the natural frequencies.' : ''),
-  pictures(answer) {
-    const rows = answer.result.matrices.filter((one) => one.angular_frequency.im === 0);
-    if (rows.length < 2) return [];
+  pictures(answer, kept) {
+    const series = [{ answer, label: kept.length ? 'this' : '|t\u2081\u2082|' }, ...kept].map(({ answer: one, label }, i) => {
+      const rows = one.result.matrices.filter((row) => row.angular_frequency.im === 0);
+      return { label, x: rows.map((row) => row.angular_frequency.re), y: rows.map((row) => magnitude(row.chain[1])), points: rows.length < 60, dash: i > 0 };
+    });
+    if (series[0].x.length < 2) return [];
     return [{ kind: 'chart', key: 't12', name: 't12', title: 'Size of t\u2081\u2082 of the chain', x: { label: 'angular frequency, rad/s' }, y: { label: '|t\u2081\u2082|, m/N', log: true },
-      series: [{ label: '|t\u2081\u2082|', x: rows.map((one) => one.angular_frequency.re), y: rows.map((one) => magnitude(one.chain[1])), points: rows.length < 60 }],
+      series,
       note: 'Its zeros are the natural frequencies of the chain between fixed ends (Levesque, Figure 3-2).' }];
   },
   sweeps: [],

@@ -3,6 +3,7 @@
 
 export const validation = {
   slow: true,
+  single: true,
   headline: ({ result: { totals } }) => [
     { label: 'cases that hold', value: totals.passed, unit: `of ${totals.cases}`, more: `${totals.values} values compared` },
     { label: 'cases that fail', value: totals.failed, unit: '', more: totals.failed ? 'listed first below' : '' },

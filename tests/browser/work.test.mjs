@@ -99,6 +99,21 @@ test('the branches of a sweep bear their optimum, and without one the page says 
   bed.noFaults();
 });
 
+test('absorbers and matrices are compared with what was kept', async () => {
+  for (const [path, key, label] of [['/absorber/optimize', 'damping_ratio', 'kept 1, mode 1'], ['/taut/matrix', 't12', 'kept 1']]) {
+    const page = await bed.open(`/#${path}`);
+    await settled(page);
+    await page.getByRole('button', { name: 'Keep to compare' }).click();
+    await page.locator(`[data-figure="${key}"] .u-legend`, { hasText: label }).waitFor();
+    await page.close();
+  }
+  const page = await bed.open('/#/validation');
+  await settled(page);
+  assert.equal(await page.getByRole('button', { name: 'Keep to compare' }).count(), 0);
+  await page.close();
+  bed.noFaults();
+});
+
 test('a family of cases opens from its name, with every value', async () => {
   const page = await bed.open(`/#/validation?${encodeURIComponent('{"r":{"report":"sergev_iwan"}}')}`);
   await settled(page);
