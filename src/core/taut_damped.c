@@ -55,16 +55,26 @@ void taut_solve_clear(taut_solve *s)
 
 /* ---- branches ---- */
 
+/* Roots that a branch ends with. */
+static int branch_roots(const taut_branch *branch)
+{
+    return branch->state == TAUT_LOST         ? 0
+           : branch->state == TAUT_OSCILLATES ? 1
+           : isfinite(creal(branch->s[1]))    ? 2
+                                              : 1;
+}
+
 /* Does another branch end where this one does? */
 static bool meets_another(const taut_solve *s, const taut_branch *branch)
 {
-    if (branch->state != TAUT_OSCILLATES)
-        return false;
     for (long k = s->first; k <= s->last; k++) {
         const taut_branch *other = &s->branches[k - s->first];
-        if (other != branch && other->state == TAUT_OSCILLATES && other->factor == 1.0 &&
-            cabs(other->s[0] - branch->s[0]) <= SAME * scale_of(s, branch->s[0]))
-            return true;
+        if (other == branch || other->factor != 1.0)
+            continue;
+        for (int i = 0; i < branch_roots(branch); i++)
+            if (taut_known(other->s, (size_t)branch_roots(other), branch->s[i],
+                           SAME * scale_of(s, branch->s[i])))
+                return true;
     }
     return false;
 }
@@ -120,12 +130,8 @@ static strum_status follow(taut_solve *s, double *w, double *gap)
     strum_status status = reserve(s, 2 * count);
     for (size_t i = 0; i < count && status == STRUM_OK; i++) {
         const taut_branch *branch = &s->branches[i];
-        const int roots = branch->state == TAUT_OVERDAMPED ? 2
-                          : branch->state == TAUT_LOST     ? 0
-                                                           : 1;
-        for (int k = 0; k < roots; k++) {
-            if (!isfinite(creal(branch->s[k])) ||
-                taut_known(s->s, s->known, branch->s[k], SAME * scale_of(s, branch->s[k])))
+        for (int k = 0; k < branch_roots(branch); k++) {
+            if (taut_known(s->s, s->known, branch->s[k], SAME * scale_of(s, branch->s[k])))
                 continue;
             s->s[s->known] = branch->s[k];
             s->mode[s->known++] = branch->mode;

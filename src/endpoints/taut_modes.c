@@ -254,9 +254,9 @@ static void warn(const strum_taut_roots *roots, answer *a)
     if (roots->lost > 0)
         answer_warn(
             a,
-            "the branches of %ld modes end before the full damping is reached (their decay "
-            "grows without bound, or they meet another overdamped root): they have no root "
-            "to give",
+            "the branches of %ld modes could not be followed to the full damping (their decay "
+            "grows without bound, or they meet other roots): no root has their numbers; a band "
+            "gives all roots, with or without",
             roots->lost);
     if (roots->missed > 0)
         answer_warn(a,
