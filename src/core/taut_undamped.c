@@ -42,8 +42,9 @@ static double refine(const strum_taut *chain, taut_shot lo, taut_shot hi)
         taut_shot shot;
         taut_shoot(chain, w, &shot);
         const double step = shot.f / shot.df, near = fmin(w - first, last - w);
-        if (fabs(step) <= fmax(1e-8 * near, DBL_EPSILON * w) && w - step >= lo.w &&
-            w - step <= hi.w)
+        /* a neighbour may lie on either end, up to rounding: there only the count decides */
+        if (near > 1e-10 * w && fabs(step) <= fmax(1e-8 * near, DBL_EPSILON * w) &&
+            w - step >= lo.w && w - step <= hi.w)
             return w - step;
         const double width = hi.w - lo.w;
         if (shot.count < number)
@@ -93,7 +94,8 @@ static void cut_between(const cut *c, const taut_shot *lo, const taut_shot *hi, 
 /* A frequency above mode `number`; false when the chain has no such mode. */
 static bool bracket(const strum_taut *chain, long number, taut_shot *hi)
 {
-    double w = chain->travel > 0.0 ? (double)(number + 1) * M_PI / chain->travel : 1.0;
+    /* no multiple of pi, where modes of plain cables are */
+    double w = chain->travel > 0.0 ? ((double)number + 0.7) * M_PI / chain->travel : 1.0;
     for (int i = 0; i < 100; i++, w *= 2.0) {
         taut_shoot(chain, w, hi);
         if (hi->count >= number)
