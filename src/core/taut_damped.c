@@ -11,7 +11,8 @@
 
 static double scale_of(const taut_solve *s, cplx root)
 {
-    return cabs(root) + 1e-3 * s->search.spacing;
+    /* slow overdamped roots crowd about 0 when a damper is strong */
+    return cimag(root) == 0.0 ? cabs(root) : cabs(root) + 1e-3 * s->search.spacing;
 }
 
 static strum_status no_memory(taut_solve *s)
@@ -315,7 +316,7 @@ static strum_status give_overdamped(taut_solve *s, double decay)
         bool given = false; /* by another run of numbers */
         for (size_t k = 0; k < s->out->overdamped_count; k++)
             given = given || fabs(s->out->overdamped[k].decay - rate) <= SAME * rate;
-        if (cimag(s->s[i]) == 0.0 && asked && !given && rate > 1e-9 * s->search.spacing)
+        if (cimag(s->s[i]) == 0.0 && asked && !given && rate > 0.0)
             status = give(s, i, true);
     }
     return status;
