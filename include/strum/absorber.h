@@ -7,11 +7,13 @@
  * The objective is max over the variables of the min over modes of the damping ratio decay/|w|.
  * Modes are either branches, numbered at zero damping and followed from there, or all roots
  * with real part in a band, found anew and counted at every trial, so that none escapes. Optima
- * lie on kinks (two modes equal) and at exceptional points (two modes coalesce); the search
- * needs no derivatives.
+ * lie on kinks (two modes equal) and at exceptional points (two modes coalesce): the first are
+ * climbed to as max level with every damping ratio >= level, the second with the double root
+ * as an unknown.
  *
- * The search is deterministic: a low-discrepancy scan, then local searches from the best
- * places, each restarted until it gains nothing.
+ * The search is deterministic: a low-discrepancy scan, then climbs from its peaks; with several
+ * variables again and again until three climbs have led to the same best. That no better one
+ * exists is likely then, not certain.
  */
 #ifndef STRUM_ABSORBER_H
 #define STRUM_ABSORBER_H

@@ -75,9 +75,9 @@ static void write_search(json_writer *json, const absorber_request *r,
     }
     json_close_array(json);
     if (best->optima_count > 0)
-        json_put_number(json, "spread",
-                        best->damping_ratio -
-                            best->optima[best->optima_count - 1].damping_ratio);
+        json_put_number(
+            json, "spread",
+            fmax(0, best->damping_ratio - best->optima[best->optima_count - 1].damping_ratio));
     json_close_object(json);
 }
 
