@@ -69,11 +69,15 @@ static void settle_signs(strum_taut_shape *shape)
     const size_t n = chain->count;
     if (!chain->free_left)
         shape->y[0] = copysign(DBL_MIN, creal(shape->v[0]));
+    else
+        shape->v[0] = 0.0; /* at a free end V is what is only rounding */
     for (size_t i = 0; i < n; i++)
         if (is_point(&chain->components[i]))
             shape->y[i + 1] = shape->y[i];
-    if (chain->free_right)
+    if (chain->free_right) {
+        shape->v[n] = 0.0;
         return;
+    }
     shape->y[n] = -copysign(DBL_MIN, creal(shape->v[n]));
     for (size_t i = n; i-- > 0 && is_point(&chain->components[i]);)
         shape->y[i] = shape->y[n];
