@@ -20,6 +20,9 @@ static const char *const expansions[] = {"midspan", "tangent", NULL};
 /* A cable that its own tension stretches by more: the elastic statics shift frequencies by half
  * of it. */
 #define STRETCH_REACH 0.01
+/* Few cables in water weigh less than this part of what they do in air; a mass in place of a
+ * weight is 1/9.8 of it. */
+#define BUOYANT_REACH 0.11
 
 typedef struct request {
     field_set given;
@@ -393,6 +396,12 @@ static void warn_of_input(const request *r, const strum_inclined_statics *s, ans
                     "weight_N_per_m is %.4g of mass_kg_per_m times gravity, as in water, but "
                     "added_mass_kg_per_m is 0",
                     weight / gravity);
+    else if (r->tension > 0 && weight < gravity * BUOYANT_REACH)
+        answer_warn(
+            a,
+            "weight_N_per_m is only %.2g of mass_kg_per_m times gravity: is a mass given "
+            "for a weight?",
+            weight / gravity);
     if (!r->cable.elastic_statics && s->stiffness * STRETCH_REACH < 1)
         answer_warn(a,
                     "the static tension stretches this cable by %.2g %%, which statics "
