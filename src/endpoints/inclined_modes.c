@@ -143,6 +143,25 @@ static void find_stiffness(request *r, bool metres, problem *p)
                                         pow(r->cable.epsilon * cos(r->cable.inclination), 2);
 }
 
+/* The field to lay a fault of the cable at: what a group of metres makes of it is checked in
+ * this order, and epsilon first of all. */
+static const char *culprit(const request *r)
+{
+    const strum_inclined *c = &r->cable;
+    const double lambda = c->lambda_squared;
+    if (r->tension == 0)
+        return "/epsilon";
+    if (c->epsilon >= STRUM_EPSILON_MIN && c->epsilon <= STRUM_EPSILON_MAX) {
+        if (!(lambda >= STRUM_LAMBDA_SQUARED_MIN) ||
+            (lambda > STRUM_LAMBDA_SQUARED_MAX && isfinite(lambda)))
+            return "/axial_stiffness_N";
+        if (c->mass_ratio < STRUM_MASS_RATIO_MIN)
+            return "/added_mass_kg_per_m";
+    }
+    return field_given(&request_schema, r, "tension_N") ? "/tension_N"
+                                                        : "/horizontal_tension_N";
+}
+
 static void prepare(void *data, schema_arena *arena, problem *p)
 {
     (void)arena;
@@ -165,11 +184,7 @@ static void prepare(void *data, schema_arena *arena, problem *p)
     const strum_status status = strum_inclined_statics_find(&r->cable, &statics, &fault);
     if (status != STRUM_OK) {
         cable_refuse(&fault, status, p);
-        problem_add(p,
-                    !metres                                        ? "/epsilon"
-                    : field_given(&request_schema, r, "tension_N") ? "/tension_N"
-                                                                   : "/horizontal_tension_N",
-                    "%s", fault.reason);
+        problem_add(p, culprit(r), "%s", fault.reason);
     } else if ((r->model == AIRY || r->model == ASYMPTOTIC) &&
                r->cable.epsilon > STRUM_EXPANSION_EPSILON_MAX) {
         problem_set(p, 422, "model %s does not reach this cable", models[r->model]);
