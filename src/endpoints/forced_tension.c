@@ -105,7 +105,7 @@ static const char *const profile_groups[] = {"[profile_points]", "profile_chi", 
 static const field_groups groups[] = {{CABLE_GEOMETRY_GROUPS},
                                       {CABLE_ELASTICITY_GROUPS},
                                       {"motion", true, motion_groups},
-                                      {"frequencies", false, frequency_groups},
+                                      {"forcing frequency", false, frequency_groups},
                                       {"profile places", true, profile_groups},
                                       {0}};
 
