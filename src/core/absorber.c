@@ -11,7 +11,7 @@
 /* Local searches that begin, at most. */
 #define STARTS STRUM_ABSORBER_OPTIMA_MAX
 /* Places of the scan in one variable. */
-#define SCAN_ONE 65
+#define SCAN_ONE 257
 /* Places of one scan in several, for each of them; of any scan. */
 #define SCAN     100
 #define SCAN_MAX (SCAN * STRUM_ABSORBER_VARIABLES_MAX)
@@ -168,14 +168,14 @@ double search_trial(search *s, const double *t)
     return objective;
 }
 
-/* Golden section about a place of a scan in one variable. */
-static double climb_one(search *s, double *t, double step)
+/* Golden section about a place of a scan in one variable, down to a width. */
+static double climb_one(search *s, double *t, double step, double width)
 {
     const double golden = 0.6180339887498949;
     double low = fmax(*t - step, 0), high = fmin(*t + step, 1);
     double left = high - golden * (high - low), right = low + golden * (high - low);
     double at_left = search_trial(s, &left), at_right = search_trial(s, &right);
-    while (high - low > 1e-10 && search_goes_on(s)) {
+    while (high - low > width && search_goes_on(s)) {
         if (at_left > at_right) {
             high = right;
             right = left;
@@ -225,8 +225,9 @@ static int by_value(const void *left, const void *right)
 }
 
 /* Places to climb from: of `points` of the sequence, from its number `first` on (one variable:
- * of its whole range), those that have no better one within `apart`; the best of them. */
-static int scan(search *s, long first, long points, double apart, place *best)
+ * of its whole range), those that have no better one within `apart`; the best `room` of them.
+ */
+static int scan(search *s, long first, long points, double apart, place *best, int room)
 {
     const int n = s->problem->variables;
     place all[SCAN_MAX];
@@ -240,7 +241,7 @@ static int scan(search *s, long first, long points, double apart, place *best)
         p->value = search_trial(s, p->t);
     }
     qsort(all, (size_t)seen, sizeof *all, by_value);
-    for (int i = 0; i < seen && count < STARTS; i++) {
+    for (int i = 0; i < seen && count < room; i++) {
         bool peak = true;
         for (int k = 0; k < i && peak; k++)
             peak = distance(n, all[k].t, all[i].t) > apart;
@@ -263,13 +264,17 @@ static void note(const strum_absorber_problem *p, const place *end, strum_absorb
     out->optima[at].damping_ratio = end->value;
 }
 
-/* One variable: a fine scan, and every peak of it that may be the highest. */
+/* One variable: a fine scan, all its peaks a little way, and the highest to the end. */
 static void run_one(search *s, strum_absorber_optimum *out)
 {
-    place best[STARTS];
-    out->starts = scan(s, 0, SCAN_ONE, 1.5 / (SCAN_ONE - 1), best);
+    const double step = 1.0 / (SCAN_ONE - 1);
+    place best[SCAN_ONE];
+    out->starts = scan(s, 0, SCAN_ONE, 1.5 * step, best, SCAN_ONE);
     for (int i = 0; i < out->starts && search_goes_on(s); i++)
-        best[i].value = climb_one(s, best[i].t, 1.0 / (SCAN_ONE - 1));
+        best[i].value = climb_one(s, best[i].t, step, 0.05 * step);
+    qsort(best, (size_t)out->starts, sizeof *best, by_value);
+    for (int i = 0; i < 4 && i < out->starts && search_goes_on(s); i++)
+        best[i].value = climb_one(s, best[i].t, 0.1 * step, 1e-10);
     for (int i = 0; i < out->starts; i++)
         note(s->problem, &best[i], out);
 }
@@ -294,7 +299,7 @@ static void run_several(search *s, strum_absorber_optimum *out)
     s->limit = (long)(0.85 * (double)all); /* the rest is for the end */
     for (int pass = 0; times < CONFIRMED && search_goes_on(s); pass++) {
         place best[STARTS];
-        const int starts = scan(s, pass * points, points, apart, best);
+        const int starts = scan(s, pass * points, points, apart, best, STARTS);
         for (int i = 0; i < starts && search_goes_on(s); i++)
             best[i].value = absorber_climb(s, best[i].t, 0.1, 6, 1e-3);
         qsort(best, (size_t)starts, sizeof *best, by_value);
