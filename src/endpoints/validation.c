@@ -92,12 +92,18 @@ static void judge_refusal(const cJSON *expect, const problem *p, outcome *o)
         return;
     }
     size_t named = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        bool wanted = false;
+        cJSON_ArrayForEach(pointer, errors) wanted |=
+            strcmp(p->entries[i].pointer, pointer->valuestring) == 0;
+        named += wanted;
+    }
     cJSON_ArrayForEach(pointer, errors)
     {
-        const size_t before = named;
+        bool found = false;
         for (size_t i = 0; i < p->count; i++)
-            named += strcmp(p->entries[i].pointer, pointer->valuestring) == 0;
-        if (named == before && !o->fault.size)
+            found |= strcmp(p->entries[i].pointer, pointer->valuestring) == 0;
+        if (!found && !o->fault.size)
             text_format(&o->fault, "\"%s\" was not named", pointer->valuestring);
     }
     if (errors && named != p->count && !o->fault.size)
