@@ -2,7 +2,8 @@
 /*
  * Taut chains: 500 modes of a cable with 380 masses, each certain by the exact count, against a
  * finite element model accurate to 1e-6 whose eigenvalues LAPACK finds by bisection (dstebz);
- * how the time grows with masses and modes; and damped bands with their certificate.
+ * how the time grows with masses and modes; and damped bands with their certificate, against
+ * the quadratic eigenproblem of finite elements.
  */
 #include <lapacke.h>
 #include <math.h>
@@ -23,6 +24,7 @@ typedef struct task {
     long *numbers;
     double *w;
     strum_taut_query query;
+    const strum_taut_roots *found;
 } task;
 
 static void fail(const char *name, const char *why)
@@ -106,6 +108,18 @@ static void roots(void *data)
 }
 
 /* ---- finite elements ---- */
+
+/* Spectral elements as accurate as the roots, all eigenvalues by LAPACK (dgeev). */
+static void damped_elements(void *data)
+{
+    const task *t = data;
+    strum_taut_verification v;
+    strum_fault fault = {0};
+    if (strum_taut_verify(t->chain, t->found, &v, &fault) != STRUM_OK)
+        fail("strum_taut_verify", fault.reason);
+    if (v.modes_expected != t->found->expected || !(v.max_relative_difference < 1e-9))
+        fail("damped elements", "they do not agree");
+}
 
 /* Linear elements with lumped masses, nodes at all attached masses; the smallest eigenvalues of
  * M^{-1/2} K M^{-1/2} by bisection. The dispersion (k h)^2/24 of the highest mode sets h.
@@ -223,6 +237,20 @@ static void damped_band(void)
         STRUM_OK)
         fail("baseline", fault.reason);
     bench_time("taut/baseline-47-damped-roots-certified", bench_median_us(roots, &t, 15));
+    /* as much of it as the elements resolve with 400 unknowns */
+    t.query.highest = 150.0;
+    const double ours = bench_median_us(roots, &t, 15);
+    bench_time("taut/baseline-35-damped-roots/strum", ours);
+    strum_taut_roots *found;
+    if (strum_taut_solve(t.chain, &t.query, &found, &fault) != STRUM_OK)
+        fail("baseline", fault.reason);
+    if (found->expected != 35 || found->found != 35)
+        fail("baseline", "35 roots are right");
+    t.found = found;
+    const double theirs = bench_median_us(damped_elements, &t, 3);
+    bench_time("taut/baseline-35-damped-roots/spectral-elements-dgeev", theirs);
+    bench_ratio("taut/damped-dgeev-over-strum", theirs / ours, "at-least", 10);
+    strum_taut_roots_free(&found);
     strum_taut_free(&t.chain);
     /* a long chain, every mode damped */
     task many = many_masses(380, 1, 0.1);
