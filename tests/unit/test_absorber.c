@@ -157,18 +157,18 @@ static void search_is_deterministic(void **state)
     hanging h = {.mass = 5, .place = 20, .varied = {1, 0}, .variables = 2};
     const double low[] = {1, 0.1}, high[] = {500, 200};
     const strum_absorber_problem problem = {2, low, high, build_hanging, &h,   NULL,
-                                            0, 0.3, 11,   600,           NULL, NULL};
+                                            0, 0.3, 11,   300,           NULL, NULL};
     const strum_absorber_optimum a = solved(&problem), b = solved(&problem);
     assert_memory_equal(a.values, b.values, sizeof a.values);
     assert_true(a.damping_ratio == b.damping_ratio && a.evaluations == b.evaluations);
-    assert_true(a.evaluations <= 600 && !a.complete);
+    assert_true(a.evaluations <= 300 && !a.complete);
 }
 
-static bool stop_at_forty(void *context, long evaluations, double best, const double *values)
+static bool stop_at_200(void *context, long evaluations, double best, const double *values)
 {
     (void)values;
     *(double *)context = best;
-    return evaluations < 40;
+    return evaluations < 200;
 }
 
 static strum_status build_for_stop(void *context, const double *values, strum_taut **chain,
@@ -184,11 +184,11 @@ static void search_can_be_stopped(void **state)
     (void)state;
     double told = 0;
     const double low[] = {0.1}, high[] = {200};
-    const strum_absorber_problem problem = {1, low, high, build_for_stop, &told,         NULL,
-                                            0, 0.5, 7,    2000,           stop_at_forty, NULL};
+    const strum_absorber_problem problem = {1, low, high, build_for_stop, &told,       NULL,
+                                            0, 0.5, 7,    2000,           stop_at_200, NULL};
     const strum_absorber_optimum best = solved(&problem);
     assert_false(best.complete);
-    assert_int_equal(best.evaluations, 40);
+    assert_int_equal(best.evaluations, 200);
     assert_true(best.damping_ratio == told && told > 0.1);
 }
 
