@@ -119,6 +119,7 @@ strum_status strum_inclined_shape(const strum_inclined_modes *modes, int index, 
 /* A second method. Full model: the strains and transverse displacement as unknowns instead of
  * forces; modes counted by strum_modes_count. Approximations: zeros of the characteristic
  * function counted by the argument principle, and how far each root lies from its nearest zero.
+ * STRUM_ERR_METHOD for a cable that stretches to a million times its length and more.
  */
 strum_status strum_inclined_verify(const strum_inclined_modes *modes,
                                    strum_verification *verification, strum_fault *fault);
