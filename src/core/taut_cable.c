@@ -47,7 +47,7 @@ void taut_wave(dual q, double length, dual *cosine, dual *sine, double *log_scal
 
 long taut_half_waves(double phase, double sine)
 {
-    const double turns = phase / M_PI;
+    const double turns = fmin(phase / M_PI, 1e15); /* beyond, a sine tells nothing */
     long whole = (long)turns;
     if ((whole & 1) != (signbit(sine) != 0))
         whole += turns - (double)whole > 0.5 ? 1 : -1;
