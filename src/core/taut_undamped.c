@@ -125,6 +125,9 @@ strum_status strum_taut_frequencies(const strum_taut *chain, const long *numbers
         return fault_set(fault, STRUM_ERR_IMPOSSIBLE, "the chain has only %ld modes", hi.count);
     /* Below every elastic mode: what counts there are rigid motions. */
     taut_shoot(chain, 1e-60 * hi.w, &lo);
+    if (!isfinite(hi.f) || !isfinite(hi.df) || !isfinite(lo.f))
+        return fault_set(fault, STRUM_ERR_ACCURACY,
+                         "the components differ by more than doubles resolve");
     lo.w = 0.0;
     size_t first = 0;
     while (first < count && numbers[first] <= lo.count)
