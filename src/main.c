@@ -38,6 +38,10 @@ static int serve(const settings *set)
         clean = server_run(&s, signals);
         log_say(clean ? "info" : "warning", "stopped", "%s",
                 clean ? "all requests were finished" : "requests were cut short");
+        /* Nobody waits for what a worker still solves, and it may take long: the process ends
+         * with it instead of waiting for it to be freed. */
+        if (!clean && server_solving(&s))
+            _exit(1);
     } else {
         log_say("error", "start", "%s", fault);
     }

@@ -298,8 +298,13 @@ static bool drain(server *s, int signals, int got)
     do {
         peers_end_waiting(s->peers);
         nap();
-    } while (peers_busy(s->peers) && clock_us() < last);
+    } while ((peers_busy(s->peers) || server_solving(s)) && clock_us() < last);
     return clean;
+}
+
+bool server_solving(server *s)
+{
+    return crew_count(s->crew).working > 0;
 }
 
 bool server_run(server *s, int signals)

@@ -41,6 +41,8 @@ bool server_start(server *s, const settings *settings, char fault[256]);
  * finishes what is under way, at the latest after drain_timeout_s or at a second signal. True
  * when nothing was cut short. */
 bool server_run(server *s, int signals);
+/* Whether a worker is at work still. Some of the mechanics cannot be interrupted. */
+bool server_solving(server *s);
 void server_free(server *s);
 
 #endif
