@@ -11,10 +11,12 @@
  *
  * Linear dynamics, F = Cartesian dynamic force, X = displacement, ' = d/d sigma with sigma =
  * sinh chi (arc length; unstretched where the profile is elastic), t and n the unit tangent and
- * normal: F' = [ tt' (m_t s^2 + eta_t s) + nn' (m_n s^2 + eta_n s) ] X X' = [ tt' kappa_t + nn'
- * (1/S + kappa_n) ] F,           X = 0 at both ends,  motion ~ e^{s t}. Gale's equations
- * (2.29, 2.35, 2.38) are kappa_n = 0, m_t = m_n = 1; kappa_n = kappa_t linearises about the
- * exact elastic catenary (Grinfogel's equations with N (1/T0 + 1/EA)).
+ * normal:
+ *     F' = [ tt' (m_t s^2 + eta_t s) + nn' (m_n s^2 + eta_n s) ] X
+ *     X' = [ tt' kappa_t + nn' (1/S + kappa_n) ] F
+ *     X = 0 at both ends,  motion ~ e^{s t}.
+ * Gale's equations (2.29, 2.35, 2.38) are kappa_n = 0, m_t = m_n = 1; kappa_n = kappa_t
+ * linearises about the exact elastic catenary (Grinfogel's equations with N (1/T0 + 1/EA)).
  *
  * Ownership: structs are the caller's; a strum_spectrum is made by strum_modes_solve and ended
  * by strum_spectrum_free. All functions are re-entrant; an object may be read by many threads
@@ -32,8 +34,7 @@
 extern "C" {
 #endif
 
-/* ---- geometry
- * -------------------------------------------------------------------------------------- */
+/* ---- geometry ---- */
 
 /* Largest |chi| of an end: |xi| about 1.3e5. Towards it the weights of the integrals span so
  * many orders that rounding grows, to some 3e-13 in the frequencies. */
@@ -87,8 +88,7 @@ double strum_catenary_sag(const strum_catenary *catenary);
 /* Position (in a) from end 1 of the point with slope parameter chi. */
 void strum_catenary_point(const strum_catenary *catenary, double chi, double *x, double *y);
 
-/* ---- modes
- * ----------------------------------------------------------------------------------------- */
+/* ---- modes ---- */
 
 typedef struct strum_cable {
     double chi_m, mu;        /* of the profile */

@@ -474,7 +474,8 @@ static strum_status solve_by_guesses(taut_solve *s, bool *done)
         cplx root = CMPLX(-q->guesses[i].decay, q->guesses[i].frequency);
         if (!taut_newton(&s->search, &root))
             continue;
-        if (cimag(root) < 0.0) /* it may have crossed the axis: the same root as its conjugate */
+        if (cimag(root) <
+            0.0) /* it may have crossed the axis: the same root as its conjugate */
             root = conj(root);
         if (taut_known(s->s, s->known, root, SAME * scale_of(s, root)))
             continue;

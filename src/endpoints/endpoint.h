@@ -68,8 +68,7 @@ extern const endpoint *const endpoints[];
 /* The endpoint of a path, or NULL. */
 const endpoint *endpoint_find(const char *path);
 
-/* ---- one asking: what http and cache see of all this
- * ------------------------------------------------ */
+/* ---- one asking: what http and cache see of all this ---- */
 
 /* A request that was read, checked and completed. Owned by the caller; ended by asking_free. */
 typedef struct asking asking;

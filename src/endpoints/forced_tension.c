@@ -209,8 +209,7 @@ static double cost_us(const void *data)
     return 1000 + count * (direct ? 500 : 30) * r->motion_count;
 }
 
-/* ---- answering
- * ----------------------------------------------------------------------------------------- */
+/* ---- answering ---- */
 
 /* What one request is answered from; owns forced and responses. */
 typedef struct solving {
