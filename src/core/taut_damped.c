@@ -154,7 +154,9 @@ static strum_status follow_modes(taut_solve *s, long first, long last)
     }
     s->first = first < 1 ? 1 : first;
     s->last = last > STRUM_TAUT_MODE_MAX ? STRUM_TAUT_MODE_MAX : last;
-    const size_t count = s->last < s->first ? 0 : (size_t)(s->last - s->first + 1);
+    if (s->last < s->first)
+        s->last = s->first - 1; /* none */
+    const size_t count = (size_t)(s->last - s->first + 1);
     if (count > 2 * STRUM_TAUT_ROOTS_MAX)
         return fault_set(s->fault, STRUM_ERR_RANGE, "more than %d modes to follow",
                          2 * STRUM_TAUT_ROOTS_MAX);
@@ -367,6 +369,10 @@ static strum_status solve_band(taut_solve *s)
     if (last - below > STRUM_TAUT_ROOTS_MAX)
         return fault_set(s->fault, STRUM_ERR_RANGE, "the band holds %ld modes, more than %d",
                          last - below, STRUM_TAUT_ROOTS_MAX);
+    if (last > STRUM_TAUT_MODE_MAX)
+        return fault_set(s->fault, STRUM_ERR_RANGE,
+                         "the band reaches mode %ld; modes to %d can be followed", last,
+                         STRUM_TAUT_MODE_MAX);
     strum_status status = follow_modes(s, below + 1 - margin, last + margin);
     if (status == STRUM_OK)
         status = complete(s, &box, &s->out->expected, &s->out->found);

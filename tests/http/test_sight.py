@@ -50,6 +50,8 @@ def test_a_trace_is_passed_through(start_strumd):
     for _ in range(2):  # solved, and from the store
         assert strumd.post(CHEAP, headers={"traceparent": TRACE}).headers["traceparent"] == TRACE
     assert strumd.post({}, headers={"traceparent": TRACE}).headers["traceparent"] == TRACE
+    strumd.end()
+    strumd.wait_log("stopped")
     assert [line["traceparent"] for line in strumd.log if line["event"] == "request"] == [TRACE] * 3
 
 
@@ -65,5 +67,6 @@ def test_what_goes_well_may_be_sampled(start_strumd):
         strumd.post(CHEAP)
         strumd.post({"sag_parameter": 3})
     strumd.end()
+    strumd.wait_log("stopped")
     statuses = [line["status"] for line in strumd.log if line["event"] == "request"]
     assert statuses.count(200) == 3 and statuses.count(400) == 30
