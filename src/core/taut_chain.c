@@ -118,6 +118,9 @@ static void set_cable(taut_component *c, double tension, double mass, double dra
     c->cable.drag = drag;
     c->cable.slowness = sqrt(mass / tension);
     c->cable.impedance = sqrt(mass * tension);
+    /* So light that one of them is below doubles: without mass, in both. */
+    if (c->cable.slowness == 0.0 || c->cable.impedance == 0.0)
+        c->cable.slowness = c->cable.impedance = 0.0;
 }
 
 static void make_cable(const strum_taut_component *g, taut_component *c)
