@@ -92,9 +92,13 @@ strum_status linalg_symmetric(int n, const double *a, int lda, const double *b, 
     copy(n, n, a, lda, c, n);
     if (b != NULL) {
         copy(n, n, b, ldb, root, n);
-        if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, root, n) != 0 ||
-            LAPACKE_dsygst_work(LAPACK_COL_MAJOR, 1, 'L', n, c, n, root, n) != 0)
+        if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, root, n) != 0)
             return STRUM_ERR_INTERNAL;
+        /* Twice the operations of dsygst, which spends its time in calls for single columns. */
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, n, 1,
+                    root, n, c, n);
+        cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, n, n, 1,
+                    root, n, c, n);
     }
     const strum_status status = symmetric_standard(n, c, want, values, vectors, scratch);
     if (status == STRUM_OK && b != NULL && vectors != NULL)
