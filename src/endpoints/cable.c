@@ -187,18 +187,34 @@ void cable_write_rates(json_writer *json, const cable_input *in, double _Complex
     }
 }
 
+/* Few cables in water weigh less than this part of what they do in air; a mass in place of a
+ * weight is 1/9.8 of it. */
+#define BUOYANT_REACH 0.11
+
+void cable_warn_weight(double weight, double mass, double added_mass, double gravity, answer *a)
+{
+    const double share = weight / (mass * gravity);
+    if (share > 1.001)
+        answer_warn(a,
+                    "weight_N_per_m is %.4g times mass_kg_per_m times gravity: are the units "
+                    "mixed up?",
+                    share);
+    else if (share < BUOYANT_REACH)
+        answer_warn(
+            a,
+            "weight_N_per_m is only %.2g of mass_kg_per_m times gravity: is a mass given "
+            "for a weight?",
+            share);
+    else if (share < 0.999 && added_mass == 0)
+        answer_warn(a,
+                    "weight_N_per_m is %.4g of mass_kg_per_m times gravity, as in water, but "
+                    "added_mass_kg_per_m is 0",
+                    share);
+}
+
 void cable_warn(const cable_input *in, answer *a)
 {
-    const double gravity = in->mass_kg_per_m * in->gravity_m_per_s2;
-    if (in->mass_kg_per_m > 0 && in->weight_N_per_m > gravity * 1.001)
-        answer_warn(
-            a,
-            "weight_N_per_m is %.4g times mass_kg_per_m times gravity: are the units mixed up?",
-            in->weight_N_per_m / gravity);
-    if (in->mass_kg_per_m > 0 && in->weight_N_per_m < gravity * 0.02)
-        answer_warn(
-            a,
-            "weight_N_per_m is only %.2g of mass_kg_per_m times gravity: is a mass given for a "
-            "weight?",
-            in->weight_N_per_m / gravity);
+    if (in->mass_kg_per_m > 0)
+        cable_warn_weight(in->weight_N_per_m, in->mass_kg_per_m, in->added_mass_kg_per_m,
+                          in->gravity_m_per_s2, a);
 }

@@ -118,6 +118,9 @@ void cable_write_geometry(json_writer *json, const cable_input *in);
 void cable_write_rates(json_writer *json, const cable_input *in, double _Complex s);
 /* Warnings that every answer about a cable may carry. */
 void cable_warn(const cable_input *in, answer *a);
+/* Of a weight that does not fit its mass; SI units, per length. */
+void cable_warn_weight(double weight, double mass, double added_mass, double gravity,
+                       answer *a);
 bool cable_damped(const cable_input *in);
 /* Turns a fault of the core into a problem. */
 void cable_refuse(const strum_fault *fault, strum_status status, problem *p);

@@ -20,9 +20,6 @@ static const char *const expansions[] = {"midspan", "tangent", NULL};
 /* A cable that its own tension stretches by more: the elastic statics shift frequencies by half
  * of it. */
 #define STRETCH_REACH 0.01
-/* Few cables in water weigh less than this part of what they do in air; a mass in place of a
- * weight is 1/9.8 of it. */
-#define BUOYANT_REACH 0.11
 
 typedef struct request {
     field_set given;
@@ -400,23 +397,9 @@ static void write_comparison(json_writer *json, const request *r,
 
 static void warn_of_input(const request *r, const strum_inclined_statics *s, answer *a)
 {
-    const double gravity = r->mass_kg_per_m * GRAVITY, weight = r->weight_N_per_m;
-    if (r->tension > 0 && weight > gravity * 1.001)
-        answer_warn(a,
-                    "weight_N_per_m is %.4g times mass_kg_per_m times gravity: are the units "
-                    "mixed up?",
-                    weight / gravity);
-    else if (r->tension > 0 && weight < gravity * 0.999 && r->added_mass_kg_per_m == 0)
-        answer_warn(a,
-                    "weight_N_per_m is %.4g of mass_kg_per_m times gravity, as in water, but "
-                    "added_mass_kg_per_m is 0",
-                    weight / gravity);
-    else if (r->tension > 0 && weight < gravity * BUOYANT_REACH)
-        answer_warn(
-            a,
-            "weight_N_per_m is only %.2g of mass_kg_per_m times gravity: is a mass given "
-            "for a weight?",
-            weight / gravity);
+    if (r->tension > 0)
+        cable_warn_weight(r->weight_N_per_m, r->mass_kg_per_m, r->added_mass_kg_per_m, GRAVITY,
+                          a);
     if (!r->cable.elastic_statics && s->stiffness * STRETCH_REACH < 1)
         answer_warn(a,
                     "the static tension stretches this cable by %.2g %%, which statics "
