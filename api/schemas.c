@@ -7,7 +7,7 @@
 
 int main(void)
 {
-    text out = {0};
+    strbuf out = {0};
     json_writer json = {.out = &out};
     json_open_object(&json);
     for (int i = 0; endpoints[i] != NULL; i++) {
@@ -23,6 +23,6 @@ int main(void)
     }
     json_close_object(&json);
     const bool good = !out.failed && puts(out.data) >= 0;
-    text_clear(&out);
+    strbuf_clear(&out);
     return good ? 0 : 1;
 }

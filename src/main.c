@@ -6,9 +6,9 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
-#include "http/log.h"
-#include "http/server.h"
-#include "http/settings.h"
+#include "http/transport/log.h"
+#include "http/transport/server.h"
+#include "http/service/settings.h"
 
 extern char **environ;
 
@@ -54,7 +54,7 @@ int main(int argc, char *argv[])
 {
     settings set;
     settings_action action;
-    text faults = {0};
+    strbuf faults = {0};
     int code = 0;
     if (!settings_read(&set, argc, argv, environ, &action, &faults)) {
         fputs(faults.data ? faults.data : "out of memory\n", stderr);
@@ -70,7 +70,7 @@ int main(int argc, char *argv[])
     } else {
         code = serve(&set);
     }
-    text_clear(&faults);
+    strbuf_clear(&faults);
     settings_clear(&set);
     return code;
 }

@@ -35,7 +35,7 @@ typedef struct strum_absorber_problem {
     /* Builds the chain for values of the variables; a chain that cannot exist is
      * STRUM_ERR_IMPOSSIBLE and counts as a trial without damping. */
     strum_status (*build)(void *context, const double *values, strum_taut **chain,
-                          strum_fault *fault);
+                          strum_error *fault);
     void *context;
     const long *modes; /* branches, ascending; or NULL for a band */
     size_t mode_count;
@@ -66,12 +66,12 @@ typedef struct strum_absorber_optimum {
 /* STRUM_ERR_IMPOSSIBLE when no trial gave a chain with a mode that is damped, STRUM_ERR_CANCELLED
  * when it was stopped before. */
 strum_status strum_absorber_optimize(const strum_absorber_problem *problem,
-                                     strum_absorber_optimum *optimum, strum_fault *fault);
+                                     strum_absorber_optimum *optimum, strum_error *fault);
 
 /* The roots that matter at given values, by the problem's own rule (branches or band); the
  * caller frees them. */
 strum_status strum_absorber_roots(const strum_absorber_problem *problem, const double *values,
-                                  strum_taut_roots **roots, strum_fault *fault);
+                                  strum_taut_roots **roots, strum_error *fault);
 /* The least damped of them: index into roots->roots (ties: the first), -1 for none. */
 int strum_absorber_limiting(const strum_taut_roots *roots);
 

@@ -56,27 +56,27 @@ typedef struct strum_catenary {
 
 /* h/b and the sag parameter p = b/sqrt(l^2 - h^2) in (0, 1)  [Gale 2.10, A-1]. */
 strum_status strum_catenary_from_sag(double rise_to_span, double sag_parameter,
-                                     strum_catenary *catenary, strum_fault *fault);
+                                     strum_catenary *catenary, strum_error *fault);
 /* xi of both ends, xi_1 < xi_2  [Gale 2.33]. */
 strum_status strum_catenary_from_xi(double xi_1, double xi_2, strum_catenary *catenary,
-                                    strum_fault *fault);
+                                    strum_error *fault);
 /* chi = x/a of both ends, chi_1 < chi_2. */
 strum_status strum_catenary_from_chi(double chi_1, double chi_2, strum_catenary *catenary,
-                                     strum_fault *fault);
+                                     strum_error *fault);
 /* Span > 0, rise (any sign) and cable length > chord, in one unit of length. */
 strum_status strum_catenary_from_length(double span, double rise, double length,
-                                        strum_catenary *catenary, strum_fault *fault);
+                                        strum_catenary *catenary, strum_error *fault);
 /* Exact elastic catenary: span > 0, rise, unstretched length in one unit of length, and
  * weight_strain = (weight per unstretched length) (unstretched length) / EA > 0. The chord may
  * exceed the length. */
 strum_status strum_catenary_from_unstretched(double span, double rise,
                                              double unstretched_length, double weight_strain,
-                                             strum_catenary *catenary, strum_fault *fault);
+                                             strum_catenary *catenary, strum_error *fault);
 
 /* Angle of the chord (radians, within +-pi/2), epsilon = (weight)/(tension where the cable is
  * parallel to its chord) > 0, weight_strain as above, 0 for an inextensible profile. */
 strum_status strum_catenary_from_chord(double epsilon, double inclination, double weight_strain,
-                                       strum_catenary *catenary, strum_fault *fault);
+                                       strum_catenary *catenary, strum_error *fault);
 
 /* xi = sgn(chi)(cosh chi - 1) and its inverse, without cancellation. */
 double strum_xi_of_chi(double chi);
@@ -133,7 +133,7 @@ typedef struct strum_spectrum strum_spectrum;
  * (damped: 1e-10) or STRUM_ERR_ACCURACY is returned. `shapes` keeps what strum_spectrum_shape
  * needs. */
 strum_status strum_modes_solve(const strum_cable *cable, strum_plane plane, int count,
-                               bool shapes, strum_spectrum **spectrum, strum_fault *fault);
+                               bool shapes, strum_spectrum **spectrum, strum_error *fault);
 /* Estimated time of strum_modes_solve in microseconds on a present-day core, without solving
  * anything. */
 double strum_modes_work(const strum_cable *cable, strum_plane plane, int count, bool shapes);
@@ -159,7 +159,7 @@ strum_status strum_spectrum_shape(const strum_spectrum *spectrum, int index, con
  * method (Gale's equation 2.35 in weak form; with elasticity its Hellinger-Reissner form, which
  * does not lock), out of plane the force form. */
 typedef struct strum_verification {
-    const char *method; /* static text */
+    const char *method; /* static strbuf */
     double max_relative_difference;
     int modes_expected,
         modes_found;     /* expected: counted by the second method up to the last frequency */
@@ -168,17 +168,17 @@ typedef struct strum_verification {
 
 /* The spectrum must have been solved with shapes (STRUM_ERR_METHOD otherwise). */
 strum_status strum_modes_verify(const strum_spectrum *spectrum,
-                                strum_verification *verification, strum_fault *fault);
+                                strum_verification *verification, strum_error *fault);
 
 /* How many in-plane natural frequencies of the undamped cable lie below `frequency`: an exact
  * count by integration along the cable, independent of every Galerkin method. */
 strum_status strum_modes_count(const strum_cable *cable, double frequency, int *count,
-                               strum_fault *fault);
+                               strum_error *fault);
 
 /* Rayleigh's estimate of the first out-of-plane frequency of a level cable  [Gale, Appendix
  * B-5]. */
 strum_status strum_rayleigh_out_of_plane(const strum_catenary *catenary, double *frequency,
-                                         strum_fault *fault);
+                                         strum_error *fault);
 
 #ifdef __cplusplus
 }

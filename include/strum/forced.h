@@ -55,7 +55,7 @@ typedef struct strum_resonance {
  * STRUM_ERR_ACCURACY, STRUM_ERR_RANGE as in strum_modes_solve; at most STRUM_MODES_MAX modes
  * may lie below frequency_max. */
 strum_status strum_forced_make(const strum_cable *cable, double frequency_max, bool in_plane,
-                               bool out_of_plane, strum_forced **forced, strum_fault *fault);
+                               bool out_of_plane, strum_forced **forced, strum_error *fault);
 void strum_forced_free(strum_forced **forced);
 
 /* Room for a response of this cable; NULL without memory. */
@@ -86,12 +86,12 @@ int strum_forced_resonances(const strum_forced *forced, const strum_end_motion *
  * STRUM_ERR_ACCURACY when the integration fails. */
 strum_status strum_forced_shoot(const strum_cable *cable, double frequency,
                                 const strum_end_motion *motion, strum_forced_point *points,
-                                int count, strum_fault *fault);
+                                int count, strum_error *fault);
 
 /* A response held against the second method at 33 places: the largest differences of tension
  * and of displacement, each relative to the largest of its kind (0 where there is none). */
 strum_status strum_forced_compare(const strum_response *response, double frequency,
-                                  double *tension, double *displacement, strum_fault *fault);
+                                  double *tension, double *displacement, strum_error *fault);
 
 /* The largest dynamic tension over cable and period of a sum of harmonics Re(sum T_k e^{i k_m
  * phase}): the responses are of the multiples k_m of one frequency. `phase` (radians, 0..2 pi)

@@ -51,7 +51,7 @@ typedef struct strum_inclined_statics {
 } strum_inclined_statics;
 
 strum_status strum_inclined_statics_find(const strum_inclined *cable,
-                                         strum_inclined_statics *statics, strum_fault *fault);
+                                         strum_inclined_statics *statics, strum_error *fault);
 
 /* Where a symmetric and the n-th antisymmetric mode meet: lambda = 2 n pi. */
 typedef struct strum_crossover {
@@ -100,7 +100,7 @@ typedef struct strum_inclined_modes strum_inclined_modes;
 /* The first `count` (1..STRUM_MODES_MAX) modes by frequency. STRUM_ERR_METHOD where an
  * approximation does not reach the cable. */
 strum_status strum_inclined_solve(const strum_inclined *cable, strum_inclined_model model,
-                                  int count, strum_inclined_modes **modes, strum_fault *fault);
+                                  int count, strum_inclined_modes **modes, strum_error *fault);
 void strum_inclined_free(strum_inclined_modes **modes);
 /* Estimated time of strum_inclined_solve in microseconds. */
 double strum_inclined_work(const strum_inclined *cable, strum_inclined_model model, int count);
@@ -122,7 +122,7 @@ strum_status strum_inclined_shape(const strum_inclined_modes *modes, int index, 
  * STRUM_ERR_METHOD for a cable that stretches to a million times its length and more.
  */
 strum_status strum_inclined_verify(const strum_inclined_modes *modes,
-                                   strum_verification *verification, strum_fault *fault);
+                                   strum_verification *verification, strum_error *fault);
 
 #ifdef __cplusplus
 }

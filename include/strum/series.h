@@ -27,7 +27,7 @@ typedef struct strum_series_report {
 
 /* STRUM_OK, or why this cable is outside the method. */
 strum_status strum_series_applies(const strum_cable *cable, strum_plane plane,
-                                  strum_fault *fault);
+                                  strum_error *fault);
 
 /* The first `count` modes (by the exact count of Wittrick and Williams: none is missed), each
  * right to 1e-12 by its own estimate; STRUM_ERR_ACCURACY with the reason where the series
@@ -35,7 +35,7 @@ strum_status strum_series_applies(const strum_cable *cable, strum_plane plane,
  * faster. `modes` has room for `count`. */
 strum_status strum_series_solve(const strum_cable *cable, strum_plane plane, int count,
                                 bool thorough, strum_mode *modes, strum_series_report *report,
-                                strum_fault *fault);
+                                strum_error *fault);
 
 /* Estimated time of strum_series_solve in microseconds, without solving anything; 0 where the
  * method does not apply. */

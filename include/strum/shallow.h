@@ -15,27 +15,27 @@
 extern "C" {
 #endif
 
-typedef struct strum_shallow {
+typedef struct strum_handbook {
     double chord;          /* L, length of the chord, in a */
     double tension;        /* T, its component along the chord, in H */
     double sag_ratio;      /* 8 d/L, d the sag normal to the chord */
     double lambda_squared; /* (8 d/L)^2 L EA/(T Le), Le = L (1 + (8 d/L)^2/8); INFINITY where
                               inextensible */
     double mass;           /* normal to the cable, per length */
-} strum_shallow;
+} strum_handbook;
 
 /* The handbook's cable with the exact one's supports, horizontal tension and sag. */
-void strum_shallow_of(const strum_catenary *catenary, const strum_cable *cable,
-                      strum_shallow *shallow);
+void strum_handbook_of(const strum_catenary *catenary, const strum_cable *cable,
+                       strum_handbook *shallow);
 
 /* omega_n = (n pi/L) sqrt(T/m), n >= 1: taut string in either plane, and shallow cable out of
  * plane. */
-double strum_shallow_string(const strum_shallow *shallow, int n);
+double strum_handbook_string(const strum_handbook *shallow, int n);
 /* The k-th (k >= 1) symmetric or antisymmetric frequency in plane. */
-double strum_shallow_in_plane(const strum_shallow *shallow, strum_symmetry symmetry, int k);
+double strum_handbook_in_plane(const strum_handbook *shallow, strum_symmetry symmetry, int k);
 /* k-th positive root b of tan(b/2) = b/2 - (4/lambda^2) (b/2)^3, lambda_squared > 0 or
  * INFINITY. */
-double strum_shallow_root(double lambda_squared, int k);
+double strum_handbook_root(double lambda_squared, int k);
 
 #ifdef __cplusplus
 }

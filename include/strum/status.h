@@ -3,7 +3,7 @@
  * Status codes of libstrum and their texts, from one table.
  *
  * Every function of the library that can fail returns a strum_status: 0 is success, a negative
- * value an error. A function that can say more than the code takes a `strum_fault *` (may be
+ * value an error. A function that can say more than the code takes a `strum_error *` (may be
  * NULL) and writes the reason there in a sentence a user can act on.
  */
 #ifndef STRUM_STATUS_H
@@ -33,10 +33,10 @@ typedef enum strum_status {
 
 /* Why a call failed. `reason` is NUL-terminated; empty when there is nothing to add to the
  * code's text. */
-typedef struct strum_fault {
+typedef struct strum_error {
     strum_status status;
     char reason[240];
-} strum_fault;
+} strum_error;
 
 /* The text of a code; never NULL, owned by the library. */
 const char *strum_status_text(strum_status status);

@@ -112,7 +112,7 @@ typedef struct strum_taut strum_taut;
 /* A chain of `count` components from left to right. */
 strum_status strum_taut_make(const strum_taut_component *components, size_t count,
                              strum_taut_end left, strum_taut_end right, strum_taut **chain,
-                             strum_fault *fault);
+                             strum_error *fault);
 void strum_taut_free(strum_taut **chain);
 /* Sum of the lengths of the components, m. */
 double strum_taut_length(const strum_taut *chain);
@@ -126,9 +126,9 @@ bool strum_taut_is_damped(const strum_taut *chain);
  * ends held), STRUM_ERR_RANGE where an entry is beyond a double. */
 strum_status strum_taut_component_matrix(const strum_taut *chain, size_t index,
                                          double frequency, double decay,
-                                         double _Complex matrix[4], strum_fault *fault);
+                                         double _Complex matrix[4], strum_error *fault);
 strum_status strum_taut_matrix(const strum_taut *chain, double frequency, double decay,
-                               double _Complex matrix[4], strum_fault *fault);
+                               double _Complex matrix[4], strum_error *fault);
 
 /* ---- modes without damping ---- */
 
@@ -140,7 +140,7 @@ long strum_taut_count(const strum_taut *chain, double frequency);
  * damping taken as zero. A mode that is a rigid motion has frequency 0. STRUM_ERR_IMPOSSIBLE
  * when the chain (without any cable) has fewer modes. */
 strum_status strum_taut_frequencies(const strum_taut *chain, const long *numbers, size_t count,
-                                    double *frequencies, strum_fault *fault);
+                                    double *frequencies, strum_error *fault);
 
 /* ---- modes with damping ---- */
 
@@ -198,7 +198,7 @@ typedef struct strum_taut_roots {
 } strum_taut_roots;
 
 strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *query,
-                              strum_taut_roots **roots, strum_fault *fault);
+                              strum_taut_roots **roots, strum_error *fault);
 void strum_taut_roots_free(strum_taut_roots **roots);
 
 /* One branch, followed from mode `mode` at zero damping through `count` ascending factors > 0
@@ -206,7 +206,7 @@ void strum_taut_roots_free(strum_taut_roots **roots);
  * `decay` is that of the slower of its two roots). STRUM_ERR_ACCURACY where it cannot be
  * followed. */
 strum_status strum_taut_follow(const strum_taut *chain, long mode, const double *factors,
-                               size_t count, strum_taut_root *roots, strum_fault *fault);
+                               size_t count, strum_taut_root *roots, strum_error *fault);
 
 /* ---- shapes ---- */
 
@@ -225,11 +225,11 @@ typedef struct strum_taut_shape strum_taut_shape;
 /* The shape of a root of the chain: shooting from both ends, joined where the motion is
  * largest. `root->frequency` > 0. */
 strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_root *root,
-                                   strum_taut_shape **shape, strum_fault *fault);
+                                   strum_taut_shape **shape, strum_error *fault);
 void strum_taut_shape_free(strum_taut_shape **shape);
 /* At `count` >= 2 equally spaced points, ends included. */
 strum_status strum_taut_shape_sample(const strum_taut_shape *shape, size_t count,
-                                     strum_taut_point *points, strum_fault *fault);
+                                     strum_taut_point *points, strum_error *fault);
 /* Nodes (ends and whatever rests with them excluded; the pin of a support included) and
  * antinodes (local largest |y|, cusps at masses included) of a root without decay, ascending;
  * owned by the shape. A decaying root has none: no point of it stays at rest. */
@@ -243,7 +243,7 @@ size_t strum_taut_shape_antinodes(const strum_taut_shape *shape,
  * stiffness with Wittrick and Williams' count, bisected; with damping the quadratic
  * eigenproblem of spectral finite elements. */
 typedef struct strum_taut_verification {
-    const char *method; /* static text */
+    const char *method; /* static strbuf */
     double max_relative_difference;
     long modes_expected, modes_found; /* expected: counted by the second method */
     double max_residual;              /* of the roots, as in strum_taut_roots */
@@ -251,7 +251,7 @@ typedef struct strum_taut_verification {
 
 /* STRUM_ERR_METHOD where the second method would need too large a problem. */
 strum_status strum_taut_verify(const strum_taut *chain, const strum_taut_roots *roots,
-                               strum_taut_verification *verification, strum_fault *fault);
+                               strum_taut_verification *verification, strum_error *fault);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cache/stored.h"
+#include "cache/slot.h"
 
 #include <pthread.h>
 #include <assert.h>
@@ -9,7 +9,7 @@
 #include <string.h>
 
 struct flight {
-    spot spot;
+    slot slot;
     waiter *waiters;
     _Atomic bool cancel;
 };
@@ -17,58 +17,58 @@ struct flight {
 struct cache {
     /* One lock: what it guards takes about 0.1 us. */
     pthread_mutex_t lock;
-    spot **buckets;
+    slot **buckets;
     unsigned shift;  /* 64 - log2(number of buckets) */
     uint64_t spread; /* odd and secret: nobody can choose bodies that share a bucket */
     unsigned char secret[crypto_shorthash_siphashx24_KEYBYTES]; /* of cache_key_of_body */
-    struct stored *newest, *oldest;
+    struct cached *newest, *oldest;
     cache_counters count;
 };
 
 /* ---- the table ---- */
 
-static spot **bucket_of(cache *c, const cache_key *key)
+static slot **bucket_of(cache *c, const cache_key *key)
 {
     uint64_t first;
     memcpy(&first, key->bytes, sizeof first);
     return &c->buckets[first * c->spread >> c->shift];
 }
 
-static spot *spot_find(cache *c, spot_kind kind, const cache_key *key)
+static slot *slot_find(cache *c, slot_kind kind, const cache_key *key)
 {
-    for (spot *l = *bucket_of(c, key); l; l = l->next)
+    for (slot *l = *bucket_of(c, key); l; l = l->next)
         if (l->kind == kind && memcmp(&l->key, key, sizeof *key) == 0)
             return l;
     return NULL;
 }
 
-static void spot_add(cache *c, spot *l, spot_kind kind, const cache_key *key, void *owner)
+static void slot_add(cache *c, slot *l, slot_kind kind, const cache_key *key, void *owner)
 {
-    spot **bucket = bucket_of(c, key);
-    *l = (spot){.next = *bucket, .key = *key, .kind = kind, .owner = owner};
+    slot **bucket = bucket_of(c, key);
+    *l = (slot){.next = *bucket, .key = *key, .kind = kind, .owner = owner};
     *bucket = l;
 }
 
-static void spot_remove(cache *c, spot *l)
+static void slot_remove(cache *c, slot *l)
 {
-    if (l->kind == SPOT_NONE)
+    if (l->kind == SLOT_NONE)
         return;
-    spot **place = bucket_of(c, &l->key);
+    slot **place = bucket_of(c, &l->key);
     while (*place != l)
         place = &(*place)->next;
     *place = l->next;
-    l->kind = SPOT_NONE;
+    l->kind = SLOT_NONE;
 }
 
 /* ---- order of use ---- */
 
-static void order_remove(cache *c, struct stored *s)
+static void order_remove(cache *c, struct cached *s)
 {
     *(s->newer ? &s->newer->older : &c->newest) = s->older;
     *(s->older ? &s->older->newer : &c->oldest) = s->newer;
 }
 
-static void order_add(cache *c, struct stored *s)
+static void order_add(cache *c, struct cached *s)
 {
     s->newer = NULL;
     s->older = c->newest;
@@ -76,9 +76,9 @@ static void order_add(cache *c, struct stored *s)
     c->newest = s;
 }
 
-static struct stored *touch(cache *c, spot *l)
+static struct cached *touch(cache *c, slot *l)
 {
-    struct stored *s = l->owner;
+    struct cached *s = l->owner;
     if (c->newest != s) {
         order_remove(c, s);
         order_add(c, s);
@@ -88,21 +88,21 @@ static struct stored *touch(cache *c, spot *l)
 
 /* ---- storing ---- */
 
-static void recognise(cache *c, struct stored *s, const cache_key *raw)
+static void recognise(cache *c, struct cached *s, const cache_key *raw)
 {
-    if (spot_find(c, SPOT_RAW, raw))
+    if (slot_find(c, SLOT_RAW, raw))
         return;
-    spot *l = &s->raw[s->raw_next++ % RAW_SPOTS];
-    spot_remove(c, l);
-    spot_add(c, l, SPOT_RAW, raw, s);
+    slot *l = &s->raw[s->raw_next++ % RAW_SLOTS];
+    slot_remove(c, l);
+    slot_add(c, l, SLOT_RAW, raw, s);
 }
 
 /* Takes the entry out; its last user frees it. */
-static void evict(cache *c, struct stored *s)
+static void evict(cache *c, struct cached *s)
 {
-    spot_remove(c, &s->canonical);
-    for (size_t i = 0; i < RAW_SPOTS; i++)
-        spot_remove(c, &s->raw[i]);
+    slot_remove(c, &s->canonical);
+    for (size_t i = 0; i < RAW_SLOTS; i++)
+        slot_remove(c, &s->raw[i]);
     order_remove(c, s);
     c->count.bytes -= s->cost;
     c->count.entries--;
@@ -111,9 +111,9 @@ static void evict(cache *c, struct stored *s)
 
 static void store(cache *c, entry *e)
 {
-    struct stored *s = stored_of(e);
+    struct cached *s = cached_of(e);
     const size_t cost = e->size + CACHE_ENTRY_OVERHEAD;
-    if (cost > c->count.cap || spot_find(c, SPOT_CANONICAL, &e->key))
+    if (cost > c->count.cap || slot_find(c, SLOT_CANONICAL, &e->key))
         return;
     while (c->oldest && c->count.bytes + cost > c->count.cap) {
         evict(c, c->oldest);
@@ -124,7 +124,7 @@ static void store(cache *c, entry *e)
     entry_ref(e);
     e->stored = true;
     s->cost = cost;
-    spot_add(c, &s->canonical, SPOT_CANONICAL, &e->key, s);
+    slot_add(c, &s->canonical, SLOT_CANONICAL, &e->key, s);
     order_add(c, s);
     c->count.bytes += cost;
     c->count.entries++;
@@ -134,7 +134,7 @@ entry *cache_find(cache *c, cache_level level, const cache_key *key)
 {
     entry *found = NULL;
     pthread_mutex_lock(&c->lock);
-    spot *l = spot_find(c, level == CACHE_RAW ? SPOT_RAW : SPOT_CANONICAL, key);
+    slot *l = slot_find(c, level == CACHE_RAW ? SLOT_RAW : SLOT_CANONICAL, key);
     if (l) {
         found = entry_ref(&touch(c, l)->entry);
         c->count.hits++;
@@ -167,38 +167,38 @@ static flight *take_off(cache *c, const cache_key *key)
     flight *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
-    spot_add(c, &f->spot, SPOT_FLIGHT, key, f);
+    slot_add(c, &f->slot, SLOT_FLIGHT, key, f);
     c->count.misses++;
     c->count.flights++;
     return f;
 }
 
-cache_turn cache_enter(cache *c, const cache_key *key, waiter *w, entry **hit, flight **lead)
+cache_role cache_acquire(cache *c, const cache_key *key, waiter *w, entry **hit, flight **lead)
 {
-    cache_turn turn;
+    cache_role turn;
     pthread_mutex_lock(&c->lock);
-    spot *stored = spot_find(c, SPOT_CANONICAL, key);
-    spot *flying = stored ? NULL : spot_find(c, SPOT_FLIGHT, key);
+    slot *stored = slot_find(c, SLOT_CANONICAL, key);
+    slot *flying = stored ? NULL : slot_find(c, SLOT_FLIGHT, key);
     if (flying && atomic_load(&((flight *)flying->owner)->cancel)) {
         /* Its answer will be that it was given up: begin again beside it. */
-        spot_remove(c, flying);
+        slot_remove(c, flying);
         flying = NULL;
     }
     if (stored) {
-        struct stored *s = touch(c, stored);
+        struct cached *s = touch(c, stored);
         recognise(c, s, &w->raw);
         *hit = entry_ref(&s->entry);
         c->count.hits++;
-        turn = TURN_HIT;
+        turn = ROLE_HIT;
     } else if (flying) {
         wait_for(flying->owner, w);
         c->count.joins++;
-        turn = TURN_JOIN;
+        turn = ROLE_FOLLOWER;
     } else if ((*lead = take_off(c, key))) {
         wait_for(*lead, w);
-        turn = TURN_LEAD;
+        turn = ROLE_LEADER;
     } else {
-        turn = TURN_NONE;
+        turn = ROLE_NONE;
     }
     pthread_mutex_unlock(&c->lock);
     return turn;
@@ -209,26 +209,26 @@ const _Atomic bool *flight_cancel(const flight *f)
     return &f->cancel;
 }
 
-void cache_tell(cache *c, flight *f, const progress *so_far)
+void cache_publish_progress(cache *c, flight *f, const progress *so_far)
 {
     pthread_mutex_lock(&c->lock);
     for (waiter *w = f->waiters; w; w = w->next)
-        if (w->hear)
-            w->hear(w, so_far);
+        if (w->on_progress)
+            w->on_progress(w, so_far);
     pthread_mutex_unlock(&c->lock);
 }
 
-void cache_land(cache *c, flight *f, entry *outcome)
+void cache_complete(cache *c, flight *f, entry *outcome)
 {
     pthread_mutex_lock(&c->lock);
-    spot_remove(c, &f->spot);
+    slot_remove(c, &f->slot);
     c->count.flights--;
     if (outcome && outcome->status == 200) {
         if (!outcome->transient)
             store(c, outcome);
-        c->count.solves += !outcome->shared;
+        c->count.solves += !outcome->from_store;
     }
-    spot *l = outcome ? spot_find(c, SPOT_CANONICAL, &outcome->key) : NULL;
+    slot *l = outcome ? slot_find(c, SLOT_CANONICAL, &outcome->key) : NULL;
     for (waiter *w = f->waiters; w; w = w->next) {
         if (l)
             recognise(c, l->owner, &w->raw);
@@ -237,12 +237,12 @@ void cache_land(cache *c, flight *f, entry *outcome)
     pthread_mutex_unlock(&c->lock);
     for (waiter *w = f->waiters, *next; w; w = next) {
         next = w->next; /* a woken waiter may be gone at once */
-        w->wake(w, entry_ref(outcome));
+        w->on_done(w, entry_ref(outcome));
     }
     free(f);
 }
 
-bool cache_abandon(cache *c, waiter *w)
+bool cache_release(cache *c, waiter *w)
 {
     pthread_mutex_lock(&c->lock);
     flight *f = w->flight;
@@ -270,7 +270,7 @@ cache *cache_new(size_t cap)
     /* A bucket for every entry of a usual size, or so. */
     while (bits < 24 && ((size_t)CACHE_ENTRY_OVERHEAD << bits) < cap)
         bits++;
-    spot **buckets = calloc((size_t)1 << bits, sizeof *buckets);
+    slot **buckets = calloc((size_t)1 << bits, sizeof *buckets);
     if (!c || !buckets || pthread_mutex_init(&c->lock, NULL) != 0) {
         free(buckets);
         free(c);

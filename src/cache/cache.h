@@ -11,7 +11,7 @@
 
 /* ---- entries ---- */
 
-#define ENTRY_FACES 2
+#define ENTRY_PREBUILT 2
 
 /* An answer, or a refusal that several requests wait for: immutable and shared by reference. */
 typedef struct entry {
@@ -21,29 +21,29 @@ typedef struct entry {
     char *body; /* owned; JSON (application/problem+json unless the status is 200) */
     size_t size;
     double queue_us, solve_us; /* spent waiting for a worker, and in endpoint or store */
-    bool stored;               /* set by cache_land, before anybody is woken */
+    bool stored;               /* set by cache_complete, before anybody is woken */
     bool transient;            /* might come out otherwise another time: never stored */
-    bool shared;               /* from the shared store: solved elsewhere */
+    bool from_store;           /* from the shared store: solved elsewhere */
     /* What http has made ready for sending the entry again: set before the entry is shared,
      * dropped with the last reference. It may point into `body` as long as it holds the body
      * (entry_hold_body). */
-    void *faces[ENTRY_FACES];
-    void (*face_drop)(void *face);
+    void *prebuilt[ENTRY_PREBUILT];
+    void (*prebuilt_drop)(void *face);
 } entry;
 
 /* Takes over the bytes of `body` (which is as new afterwards). NULL when memory ran out. */
-entry *entry_new(const cache_key *key, int status, text *body);
+entry *entry_new(const cache_key *key, int status, strbuf *body);
 entry *entry_ref(entry *e);
 void entry_unref(entry *e); /* NULL is fine */
 void entry_hold_body(entry *e);
 void entry_release_body(entry *e);
 
 /* Answers `a` (200), or says why not (the problem's status). NULL when memory ran out. */
-entry *entry_solve(const asking *a, const cache_key *key, watch *w);
+entry *entry_solve(const evaluation *a, const cache_key *key, observer *w);
 
 /* ---- the cache ---- */
 
-/* What an entry is counted as beside its body: its own struct, and what its faces take. */
+/* What an entry is counted as beside its body: its own struct, and what its prebuilt take. */
 #define CACHE_ENTRY_OVERHEAD 3584
 
 typedef struct cache cache;
@@ -73,34 +73,34 @@ void cache_key_of_body(const cache *c, const void *owner, const char *body, size
 
 typedef struct flight flight;
 
-/* One who waits for an answer. Owned by the caller, who keeps it until `wake` is called. */
+/* One who waits for an answer. Owned by the caller, who keeps it until `on_done` is called. */
 typedef struct waiter {
     cache_key raw; /* of the bytes it asked with; a stored answer is found by it next time */
     /* The answer, referenced for the waiter; NULL: memory ran out. From any thread. */
-    void (*wake)(struct waiter *w, entry *outcome);
+    void (*on_done)(struct waiter *w, entry *outcome);
     /* How far it is; may be NULL. Under the cache's lock: short, and no call of this file. */
-    void (*hear)(struct waiter *w, const progress *so_far);
+    void (*on_progress)(struct waiter *w, const progress *so_far);
     struct waiter *next; /* the rest is the cache's */
     flight *flight;
 } waiter;
 
-typedef enum cache_turn {
-    TURN_HIT,  /* *hit is the stored answer, referenced for the caller */
-    TURN_JOIN, /* somebody solves it: `w` will be woken */
-    TURN_LEAD, /* the caller must solve it and call cache_land(*lead); `w` is woken too */
-    TURN_NONE  /* memory ran out */
-} cache_turn;
+typedef enum cache_role {
+    ROLE_HIT,      /* *hit is the stored answer, referenced for the caller */
+    ROLE_FOLLOWER, /* somebody solves it: `w` will be woken */
+    ROLE_LEADER, /* the caller must solve it and call cache_complete(*lead); `w` is woken too */
+    ROLE_NONE    /* memory ran out */
+} cache_role;
 
-cache_turn cache_enter(cache *c, const cache_key *key, waiter *w, entry **hit, flight **lead);
+cache_role cache_acquire(cache *c, const cache_key *key, waiter *w, entry **hit, flight **lead);
 /* True once nobody waits for the flight any more: what endpoints poll. */
 const _Atomic bool *flight_cancel(const flight *f);
 /* Lets all who wait for the flight hear. */
-void cache_tell(cache *c, flight *f, const progress *so_far);
+void cache_publish_progress(cache *c, flight *f, const progress *so_far);
 /* Ends a flight: stores `outcome` (if its status is 200 and it fits), wakes all who wait. The
  * caller keeps its own reference; NULL says that memory ran out. */
-void cache_land(cache *c, flight *f, entry *outcome);
+void cache_complete(cache *c, flight *f, entry *outcome);
 /* `w` gives up waiting; the last one to do so cancels the flight. True: it will not be woken,
  * the caller must do what waking would have done. False: it is being woken. */
-bool cache_abandon(cache *c, waiter *w);
+bool cache_release(cache *c, waiter *w);
 
 #endif

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cache/stored.h"
+#include "cache/slot.h"
 
 #include <stdlib.h>
 
-entry *entry_new(const cache_key *key, int status, text *body)
+entry *entry_new(const cache_key *key, int status, strbuf *body)
 {
-    struct stored *s = body->failed || !body->data ? NULL : calloc(1, sizeof *s);
+    struct cached *s = body->failed || !body->data ? NULL : calloc(1, sizeof *s);
     if (!s) {
-        text_clear(body);
+        strbuf_clear(body);
         return NULL;
     }
     s->entry.key = *key;
@@ -17,7 +17,7 @@ entry *entry_new(const cache_key *key, int status, text *body)
     char *trimmed = realloc(body->data, body->size + 1);
     s->entry.body = trimmed ? trimmed : body->data;
     s->entry.size = body->size;
-    *body = (text){0};
+    *body = (strbuf){0};
     s->references = 1;
     s->body_holds = 1; /* of all references together */
     return &s->entry;
@@ -26,47 +26,47 @@ entry *entry_new(const cache_key *key, int status, text *body)
 entry *entry_ref(entry *e)
 {
     if (e)
-        atomic_fetch_add_explicit(&stored_of(e)->references, 1, memory_order_relaxed);
+        atomic_fetch_add_explicit(&cached_of(e)->references, 1, memory_order_relaxed);
     return e;
 }
 
 void entry_unref(entry *e)
 {
-    if (!e || atomic_fetch_sub_explicit(&stored_of(e)->references, 1, memory_order_acq_rel) > 1)
+    if (!e || atomic_fetch_sub_explicit(&cached_of(e)->references, 1, memory_order_acq_rel) > 1)
         return;
-    for (size_t i = 0; i < ENTRY_FACES; i++)
-        if (e->faces[i])
-            e->face_drop(e->faces[i]);
+    for (size_t i = 0; i < ENTRY_PREBUILT; i++)
+        if (e->prebuilt[i])
+            e->prebuilt_drop(e->prebuilt[i]);
     entry_release_body(e);
 }
 
 void entry_hold_body(entry *e)
 {
-    atomic_fetch_add_explicit(&stored_of(e)->body_holds, 1, memory_order_relaxed);
+    atomic_fetch_add_explicit(&cached_of(e)->body_holds, 1, memory_order_relaxed);
 }
 
 void entry_release_body(entry *e)
 {
-    struct stored *s = stored_of(e);
+    struct cached *s = cached_of(e);
     if (atomic_fetch_sub_explicit(&s->body_holds, 1, memory_order_acq_rel) > 1)
         return;
     free(e->body);
     free(s);
 }
 
-entry *entry_solve(const asking *a, const cache_key *key, watch *w)
+entry *entry_solve(const evaluation *a, const cache_key *key, observer *w)
 {
     char hex[KEY_HEX_SIZE];
     key_hex(key, hex);
-    text body = {0};
+    strbuf body = {0};
     problem p = {0};
     int status = 200;
     if (*w->cancel) {
         status = 503;
         problem_set(&p, status, "nobody waits for this answer any more");
         problem_write(&p, NULL, &body);
-    } else if (!asking_answer(a, hex, w, &body, &p)) {
-        text_clear(&body);
+    } else if (!evaluation_answer(a, hex, w, &body, &p)) {
+        strbuf_clear(&body);
         status = p.status ? p.status : 500;
         problem_write(&p, NULL, &body);
     }

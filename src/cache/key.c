@@ -52,10 +52,10 @@ bool key_of_parts(const key_part *parts, size_t count, cache_key *key)
     return EVP_DigestFinal_ex(context, key->bytes, NULL);
 }
 
-bool key_of_asking(const asking *a, text *canonical, cache_key *key)
+bool key_of_evaluation(const evaluation *a, strbuf *canonical, cache_key *key)
 {
     canonical->size = 0;
-    asking_canonical(a, canonical);
+    evaluation_canonical(a, canonical);
     if (canonical->failed)
         return false;
     return key_of_parts(&(key_part){canonical->data, canonical->size}, 1, key);

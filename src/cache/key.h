@@ -25,7 +25,7 @@ typedef struct key_part {
  * together. False when memory ran out. */
 bool key_of_parts(const key_part *parts, size_t count, cache_key *key);
 /* The canonical key of a request; `canonical` is scratch, reused. */
-bool key_of_asking(const asking *a, text *canonical, cache_key *key);
+bool key_of_evaluation(const evaluation *a, strbuf *canonical, cache_key *key);
 
 void key_hex(const cache_key *key, char hex[KEY_HEX_SIZE]);
 /* From 64 lower-case hex characters; false for anything else. */

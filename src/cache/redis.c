@@ -105,7 +105,7 @@ int redis_find(const char *host, const char *port, int wait_ms, redis_place *at,
 
 /* ---- asking ---- */
 
-static bool send_all(int fd, const text *command, int64_t until, char why[REDIS_WHY])
+static bool send_all(int fd, const strbuf *command, int64_t until, char why[REDIS_WHY])
 {
     for (size_t sent = 0; sent < command->size;) {
         const ssize_t more = send(fd, command->data + sent, command->size - sent, MSG_NOSIGNAL);
@@ -123,27 +123,27 @@ static bool send_all(int fd, const text *command, int64_t until, char why[REDIS_
 static bool send_words(int fd, const key_part *words, size_t count, int64_t until,
                        char why[REDIS_WHY])
 {
-    text command = {0};
-    text_format(&command, "*%zu\r\n", count);
+    strbuf command = {0};
+    strbuf_format(&command, "*%zu\r\n", count);
     for (size_t i = 0; i < count; i++) {
-        text_format(&command, "$%zu\r\n", words[i].size);
-        text_add(&command, words[i].bytes, words[i].size);
-        text_add(&command, "\r\n", 2);
+        strbuf_format(&command, "$%zu\r\n", words[i].size);
+        strbuf_add(&command, words[i].bytes, words[i].size);
+        strbuf_add(&command, "\r\n", 2);
     }
     const bool good =
         command.failed ? say(why, "out of memory") : send_all(fd, &command, until, why);
-    text_clear(&command);
+    strbuf_clear(&command);
     return good;
 }
 
-static bool receive(int fd, text *got, int64_t until, char why[REDIS_WHY])
+static bool receive(int fd, strbuf *got, int64_t until, char why[REDIS_WHY])
 {
     char block[BLOCK];
     /* Checked here too: what drips fast enough is never waited for. */
     while (redis_now_ms() <= until) {
         const ssize_t more = recv(fd, block, sizeof block, 0);
         if (more > 0) {
-            text_add(got, block, (size_t)more);
+            strbuf_add(got, block, (size_t)more);
             return !got->failed || say(why, "out of memory");
         }
         if (more == 0)
@@ -177,7 +177,7 @@ static void quote(const char *line, size_t size, char why[REDIS_WHY])
 }
 
 /* Takes the value out of a reply that is there as far as its first line, of `line` bytes. */
-static redis_reply read_value(int fd, size_t line, size_t length, int64_t until, text *got,
+static redis_reply read_value(int fd, size_t line, size_t length, int64_t until, strbuf *got,
                               char why[REDIS_WHY])
 {
     while (got->size < line + length + 2)
@@ -193,7 +193,7 @@ static redis_reply read_value(int fd, size_t line, size_t length, int64_t until,
 }
 
 redis_reply redis_ask(int fd, const key_part *words, size_t count, size_t most, int64_t until,
-                      text *value, char why[REDIS_WHY])
+                      strbuf *value, char why[REDIS_WHY])
 {
     const char *end = NULL;
     if (!send_words(fd, words, count, until, why))

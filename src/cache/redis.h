@@ -38,6 +38,6 @@ int redis_connect(const redis_place *at, int64_t until, char why[REDIS_WHY]);
 /* Sends one command and awaits its reply. `value` (empty before) is that of REDIS_VALUE; it has
  * at most `most` bytes. `why` is set with REDIS_BROKEN and REDIS_REFUSED. */
 redis_reply redis_ask(int fd, const key_part *words, size_t count, size_t most, int64_t until,
-                      text *value, char why[REDIS_WHY]);
+                      strbuf *value, char why[REDIS_WHY]);
 
 #endif

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts files into the program: writes the table of src/http/assets.h, whose bytes the assembler takes in by .incbin,
+"""Puts files into the program: writes the table of src/http/api/assets.h, whose bytes the assembler takes in by .incbin,
 which costs nothing at any size.
 
     embed.py OUTPUT.c WORK_FOLDER PATH=FILE...
@@ -42,7 +42,7 @@ def main():
             externs.append(f"extern const unsigned char {symbol}[], {symbol}_end[];")
         rows.append(f'    {{"{path}", "{TYPES[source.suffix]}", "{hashlib.sha256(data).hexdigest()}",\n'
                     f"     asset_{i}, asset_{i}_end, asset_{i}_gzip, asset_{i}_gzip_end}},")
-    table.write_text('#include "http/assets.h"\n\n' + "\n".join(blobs + externs) +
+    table.write_text('#include "http/api/assets.h"\n\n' + "\n".join(blobs + externs) +
                      "\n\nconst asset assets[] = {\n" + "\n".join(rows) + "\n    {.path = NULL}};\n")
 
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figures of a bench: kept from answer to answer, so that they change rather than flicker. */
-import { askAll } from './ask.js';
+import { askAll } from './api_client.js';
 import { h } from './dom.js';
 import { makeChart } from './chart.js';
 import { makeMotion } from './motion.js';

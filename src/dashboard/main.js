@@ -2,7 +2,7 @@
 /* Tabs: one an endpoint of the contract. */
 import { h } from './dom.js';
 import { loadContract } from './contract.js';
-import { makeBench } from './bench.js';
+import { makeBench } from './panel.js';
 import { readState } from './state.js';
 
 const tabs = document.getElementById('tabs');

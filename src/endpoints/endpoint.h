@@ -9,7 +9,7 @@
 
 #include <stdatomic.h>
 
-#include "endpoints/schema.h"
+#include "schema/schema.h"
 
 /* How far a long computation has come. */
 typedef struct progress {
@@ -19,21 +19,21 @@ typedef struct progress {
 } progress;
 
 /* Who looks on while an answer is made, and what is learnt beside it. */
-typedef struct watch {
+typedef struct observer {
     const _Atomic bool *cancel; /* may be NULL; true: nobody waits any more */
     /* May be NULL. From the thread that solves; however often it is called, it costs little. */
-    void (*progress)(struct watch *w, const progress *so_far);
+    void (*progress)(struct observer *w, const progress *so_far);
     double solve_us; /* set: the time spent in the endpoint */
     bool transient;  /* set: see below */
-} watch;
+} observer;
 
 /* What an answer is written into, and what may end it early. */
 typedef struct answer {
     json_writer *result;        /* write exactly one value: the "result" */
-    text *warnings;             /* owned by the caller; use answer_warn */
+    strbuf *warnings;           /* owned by the caller; use answer_warn */
     const char *theory;         /* set: what the answer rests on, with source ("meta.theory") */
     const _Atomic bool *cancel; /* may be NULL; true: nobody waits any more */
-    watch *watch;               /* may be NULL; use answer_progress */
+    observer *observer;         /* may be NULL; use answer_progress */
     /* Set: a limit of time cut it short, so that it might come out otherwise another time. It
      * is sent, with a warning that says so, and never stored. */
     bool transient;
@@ -56,7 +56,7 @@ typedef struct endpoint {
      * `p`. */
     void (*prepare)(void *request, schema_arena *arena, problem *p);
     /* Estimated work in microseconds: decides between answering at once and handing to the
-     * crew. */
+     * thread_pool. */
     double (*cost_us)(const void *request);
     /* Writes the result; false with a->problem set when there is none. Pure: depends on
      * `request` only. */
@@ -70,22 +70,24 @@ const endpoint *endpoint_find(const char *path);
 
 /* ---- one asking: what http and cache see of all this ---- */
 
-/* A request that was read, checked and completed. Owned by the caller; ended by asking_free. */
-typedef struct asking asking;
+/* A request that was read, checked and completed. Owned by the caller; ended by evaluation_free. */
+typedef struct evaluation evaluation;
 
 /* From a JSON body / from query pairs. NULL with `p` filled when refused. */
-asking *asking_read(const endpoint *e, const char *body, size_t size, const json_limits *limits,
-                    problem *p);
+evaluation *evaluation_read(const endpoint *e, const char *body, size_t size,
+                            const json_limits *limits, problem *p);
 /* From a part of a document that json_read has read; pointers are those into the part. */
-asking *asking_read_item(const endpoint *e, const cJSON *item, problem *p);
-asking *asking_read_query(const endpoint *e, const query_pair *pairs, size_t count, problem *p);
-void asking_free(asking *a);
+evaluation *evaluation_read_item(const endpoint *e, const cJSON *item, problem *p);
+evaluation *evaluation_read_query(const endpoint *e, const query_pair *pairs, size_t count,
+                                  problem *p);
+void evaluation_free(evaluation *a);
 
 /* Canonical bytes: endpoint, solver version and every field; their hash is the answer's key. */
-void asking_canonical(const asking *a, text *out);
-double asking_cost_us(const asking *a);
+void evaluation_canonical(const evaluation *a, strbuf *out);
+double evaluation_cost_us(const evaluation *a);
 /* Writes {"request", "result", "warnings", "meta": {"key", "solver", "theory"}}. False with `p`
  * filled when there is no answer. `w` may be NULL. */
-bool asking_answer(const asking *a, const char *key, watch *w, text *out, problem *p);
+bool evaluation_answer(const evaluation *a, const char *key, observer *w, strbuf *out,
+                       problem *p);
 
 #endif

@@ -15,13 +15,13 @@ void problem_set(problem *p, int status, const char *format, ...)
     if (p->status != 0)
         return;
     p->status = status;
-    text detail = {0};
+    strbuf detail = {0};
     va_list arguments;
     va_start(arguments, format);
-    text_format_list(&detail, format, arguments);
+    strbuf_format_list(&detail, format, arguments);
     va_end(arguments);
     if (detail.failed) {
-        text_clear(&detail);
+        strbuf_clear(&detail);
         problem_out_of_memory(p);
     }
     p->detail = detail.data;
@@ -49,14 +49,14 @@ void problem_add(problem *p, const char *pointer, const char *format, ...)
         p->omitted++;
         return;
     }
-    text detail = {0};
+    strbuf detail = {0};
     va_list arguments;
     va_start(arguments, format);
-    text_format_list(&detail, format, arguments);
+    strbuf_format_list(&detail, format, arguments);
     va_end(arguments);
     char *copy = strdup(pointer);
     if (detail.failed || copy == NULL || !reserve_entry(p)) {
-        text_clear(&detail);
+        strbuf_clear(&detail);
         free(copy);
         problem_out_of_memory(p);
         return;
@@ -68,10 +68,10 @@ void problem_add(problem *p, const char *pointer, const char *format, ...)
 void problem_place(problem *p, const char *prefix)
 {
     for (size_t i = 0; i < p->count; i++) {
-        text placed = {0};
-        text_format(&placed, "%s%s", prefix, p->entries[i].pointer);
+        strbuf placed = {0};
+        strbuf_format(&placed, "%s%s", prefix, p->entries[i].pointer);
         if (placed.failed) {
-            text_clear(&placed);
+            strbuf_clear(&placed);
             problem_out_of_memory(p);
             return;
         }
@@ -118,28 +118,28 @@ const char *problem_title(int status)
 /* The sentence: what was set, or one about the entries. */
 static void write_detail(const problem *p, json_writer *json)
 {
-    text detail = {0};
+    strbuf detail = {0};
     const size_t faults = p->count + p->omitted;
     if (p->failed)
-        text_add_string(&detail, "memory ran out");
+        strbuf_add_string(&detail, "memory ran out");
     else if (p->detail != NULL)
-        text_add_string(&detail, p->detail);
+        strbuf_add_string(&detail, p->detail);
     else if (faults == 1)
-        text_add_string(&detail, "the request has a fault: see errors");
+        strbuf_add_string(&detail, "the request has a fault: see errors");
     else if (faults > 0)
-        text_format(&detail, "the request has %zu faults: see errors", faults);
+        strbuf_format(&detail, "the request has %zu faults: see errors", faults);
     else
-        text_add_string(&detail, problem_title(p->status));
+        strbuf_add_string(&detail, problem_title(p->status));
     if (p->omitted > 0)
-        text_format(&detail, " (the first %zu of them)", p->count);
+        strbuf_format(&detail, " (the first %zu of them)", p->count);
     if (detail.failed)
         json->out->failed = true;
     else
         json_put_string(json, "detail", detail.data);
-    text_clear(&detail);
+    strbuf_clear(&detail);
 }
 
-void problem_write(const problem *p, const char *instance, text *out)
+void problem_write(const problem *p, const char *instance, strbuf *out)
 {
     json_writer json = {.out = out};
     json_open_object(&json);

@@ -7,7 +7,7 @@
 #ifndef JSON_PROBLEM_H
 #define JSON_PROBLEM_H
 
-#include "json/text.h"
+#include "json/strbuf.h"
 #include "json/write.h"
 
 /* A hostile document can hold a fault in every byte: beyond this many entries, or bytes of
@@ -42,7 +42,7 @@ void problem_place(problem *p, const char *prefix);
 void problem_out_of_memory(problem *p);
 /* The document {"type", "title", "status", "detail", "instance"?, "errors": [{"pointer",
  * "detail"}]}. */
-void problem_write(const problem *p, const char *instance, text *out);
+void problem_write(const problem *p, const char *instance, strbuf *out);
 /* The reason phrase of a status (RFC 9110); "Error" for one that is not used here. */
 const char *problem_title(int status);
 /* Frees what it holds; `p` is as new ({0}). */

@@ -15,7 +15,7 @@ typedef struct scan {
     const char *start, *at, *end;
     int depth, values; /* still allowed */
     int status;        /* of the fault */
-    const char *fault; /* static text */
+    const char *fault; /* static strbuf */
 } scan;
 
 static bool scan_fail(scan *s, int status, const char *fault)
@@ -260,41 +260,41 @@ static void report(const scan *s, problem *p)
 
 /* ---- the parsed document ---- */
 
-void json_pointer(const json_place *place, text *out)
+void json_pointer(const json_place *place, strbuf *out)
 {
     if (place == NULL)
         return;
     json_pointer(place->parent, out);
     if (place->name == NULL) {
-        text_format(out, "/%zu", place->index);
+        strbuf_format(out, "/%zu", place->index);
         return;
     }
-    text_add(out, "/", 1);
+    strbuf_add(out, "/", 1);
     for (const char *c = place->name; *c != '\0'; c++) {
         if (*c == '~')
-            text_add(out, "~0", 2);
+            strbuf_add(out, "~0", 2);
         else if (*c == '/')
-            text_add(out, "~1", 2);
+            strbuf_add(out, "~1", 2);
         else
-            text_add(out, c, 1);
+            strbuf_add(out, c, 1);
     }
 }
 
 void json_fault(problem *p, const json_place *place, const char *format, ...)
 {
-    text pointer = {0}, detail = {0};
+    strbuf pointer = {0}, detail = {0};
     va_list arguments;
     va_start(arguments, format);
-    text_format_list(&detail, format, arguments);
+    strbuf_format_list(&detail, format, arguments);
     va_end(arguments);
-    text_add(&pointer, "", 0);
+    strbuf_add(&pointer, "", 0);
     json_pointer(place, &pointer);
     if (pointer.failed || detail.failed)
         problem_out_of_memory(p);
     else
         problem_add(p, pointer.data, "%s", detail.data);
-    text_clear(&pointer);
-    text_clear(&detail);
+    strbuf_clear(&pointer);
+    strbuf_clear(&detail);
 }
 
 static int compare_names(const void *a, const void *b)

@@ -40,7 +40,7 @@ typedef struct json_place {
 } json_place;
 
 /* Appends the JSON pointer of a place (NULL: the document, ""). */
-void json_pointer(const json_place *place, text *out);
+void json_pointer(const json_place *place, strbuf *out);
 /* problem_add at a place. */
 void json_fault(problem *p, const json_place *place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

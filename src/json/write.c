@@ -11,40 +11,40 @@
 static void begin_value(json_writer *json)
 {
     if (json->comma)
-        text_add(json->out, ",", 1);
+        strbuf_add(json->out, ",", 1);
     json->comma = true;
 }
 
 void json_open_object(json_writer *json)
 {
     begin_value(json);
-    text_add(json->out, "{", 1);
+    strbuf_add(json->out, "{", 1);
     json->comma = false;
 }
 
 void json_close_object(json_writer *json)
 {
-    text_add(json->out, "}", 1);
+    strbuf_add(json->out, "}", 1);
     json->comma = true;
 }
 
 void json_open_array(json_writer *json)
 {
     begin_value(json);
-    text_add(json->out, "[", 1);
+    strbuf_add(json->out, "[", 1);
     json->comma = false;
 }
 
 void json_close_array(json_writer *json)
 {
-    text_add(json->out, "]", 1);
+    strbuf_add(json->out, "]", 1);
     json->comma = true;
 }
 
 void json_key(json_writer *json, const char *key)
 {
     json_string(json, key);
-    text_add(json->out, ":", 1);
+    strbuf_add(json->out, ":", 1);
     json->comma = false;
 }
 
@@ -57,22 +57,22 @@ void json_number(json_writer *json, double value)
     char buffer[1 + JSON_NUMBER_MAX] = ",";
     const size_t size = json_print_double(value, buffer + 1);
     if (json->comma)
-        text_add(json->out, buffer, size + 1);
+        strbuf_add(json->out, buffer, size + 1);
     else
-        text_add(json->out, buffer + 1, size);
+        strbuf_add(json->out, buffer + 1, size);
     json->comma = true;
 }
 
 void json_integer(json_writer *json, int64_t value)
 {
     begin_value(json);
-    text_format(json->out, "%lld", (long long)value);
+    strbuf_format(json->out, "%lld", (long long)value);
 }
 
 void json_flag(json_writer *json, bool value)
 {
     begin_value(json);
-    text_add_string(json->out, value ? "true" : "false");
+    strbuf_add_string(json->out, value ? "true" : "false");
 }
 
 void json_string(json_writer *json, const char *string)
@@ -81,22 +81,22 @@ void json_string(json_writer *json, const char *string)
 }
 
 /* What stands for a byte that cannot stand for itself in a string. */
-static void add_escape(text *out, unsigned char byte)
+static void add_escape(strbuf *out, unsigned char byte)
 {
     static const char named[] = "\"\"\\\\\bb\ff\nn\rr\tt"; /* byte, letter, ... */
     for (const char *n = named; *n != '\0'; n += 2)
         if ((unsigned char)*n == byte) {
-            text_add(out, (const char[]){'\\', n[1]}, 2);
+            strbuf_add(out, (const char[]){'\\', n[1]}, 2);
             return;
         }
-    text_format(out, "\\u%04x", byte);
+    strbuf_format(out, "\\u%04x", byte);
 }
 
 void json_string_n(json_writer *json, const char *bytes, size_t size)
 {
-    text *out = json->out;
+    strbuf *out = json->out;
     begin_value(json);
-    text_add(out, "\"", 1);
+    strbuf_add(out, "\"", 1);
     const char *const end = bytes + size;
     const char *plain = bytes; /* start of the run that needs no change */
     for (const char *at = bytes; at < end;) {
@@ -106,16 +106,16 @@ void json_string_n(json_writer *json, const char *bytes, size_t size)
             at += length;
             continue;
         }
-        text_add(out, plain, (size_t)(at - plain));
+        strbuf_add(out, plain, (size_t)(at - plain));
         /* An answer is valid UTF-8 whatever a client sent: U+FFFD for what is not. */
         if (length == 0)
-            text_add_string(out, "\xEF\xBF\xBD");
+            strbuf_add_string(out, "\xEF\xBF\xBD");
         else
             add_escape(out, byte);
         plain = ++at;
     }
-    text_add(out, plain, (size_t)(end - plain));
-    text_add(out, "\"", 1);
+    strbuf_add(out, plain, (size_t)(end - plain));
+    strbuf_add(out, "\"", 1);
 }
 
 void json_complex(json_writer *json, double _Complex value)
@@ -129,7 +129,7 @@ void json_complex(json_writer *json, double _Complex value)
 void json_raw(json_writer *json, const char *bytes, size_t size)
 {
     begin_value(json);
-    text_add(json->out, bytes, size);
+    strbuf_add(json->out, bytes, size);
 }
 
 void json_put_number(json_writer *json, const char *key, double value)

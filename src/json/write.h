@@ -11,10 +11,10 @@
 #include <complex.h>
 #include <stdint.h>
 
-#include "json/text.h"
+#include "json/strbuf.h"
 
 typedef struct json_writer {
-    text *out;
+    strbuf *out;
     bool comma; /* a value stands before the next one in the open object or array */
 } json_writer;
 

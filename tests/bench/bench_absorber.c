@@ -22,7 +22,7 @@ typedef double _Complex cplx;
 #define ROUNDS_MAX 20
 
 static strum_status build(void *context, const double *values, strum_taut **chain,
-                          strum_fault *fault)
+                          strum_error *fault)
 {
     (void)context;
     const strum_taut_component parts[] = {

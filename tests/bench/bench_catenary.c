@@ -42,7 +42,7 @@ static void solve(void *data)
 {
     task *t = data;
     strum_spectrum *spectrum;
-    strum_fault fault = {0};
+    strum_error fault = {0};
     if (strum_modes_solve(&t->cable, STRUM_IN_PLANE, t->count, false, &spectrum, &fault) !=
         STRUM_OK)
         fail("strum_modes_solve", fault.reason);

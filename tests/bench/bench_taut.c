@@ -69,7 +69,7 @@ static task many_masses(int masses, int modes, double drag)
         before = t.x[i - 1];
     }
     parts[2 * masses] = cable(LENGTH - before, drag);
-    strum_fault fault = {0};
+    strum_error fault = {0};
     if (strum_taut_make(parts, 2 * (size_t)masses + 1, STRUM_TAUT_FIXED, STRUM_TAUT_FIXED,
                         &t.chain, &fault) != STRUM_OK)
         fail("many masses", fault.reason);
@@ -91,7 +91,7 @@ static void end(task *t)
 static void frequencies(void *data)
 {
     task *t = data;
-    strum_fault fault = {0};
+    strum_error fault = {0};
     if (strum_taut_frequencies(t->chain, t->numbers, (size_t)t->modes, t->w, &fault) !=
         STRUM_OK)
         fail("strum_taut_frequencies", fault.reason);
@@ -101,7 +101,7 @@ static void roots(void *data)
 {
     task *t = data;
     strum_taut_roots *found;
-    strum_fault fault = {0};
+    strum_error fault = {0};
     if (strum_taut_solve(t->chain, &t->query, &found, &fault) != STRUM_OK)
         fail("strum_taut_solve", fault.reason);
     strum_taut_roots_free(&found);
@@ -114,7 +114,7 @@ static void damped_elements(void *data)
 {
     const task *t = data;
     strum_taut_verification v;
-    strum_fault fault = {0};
+    strum_error fault = {0};
     if (strum_taut_verify(t->chain, t->found, &v, &fault) != STRUM_OK)
         fail("strum_taut_verify", fault.reason);
     if (v.modes_expected != t->found->expected || !(v.max_relative_difference < 1e-9))
@@ -232,7 +232,7 @@ static void damped_band(void)
                                       .tension_right = 5000.0,
                                       .body = {links, &joint, 2}};
     task t = {.query = {.lowest = 0.5, .highest = 200.3, .max_decay = 40.0}};
-    strum_fault fault = {0};
+    strum_error fault = {0};
     if (strum_taut_make(parts, 3, STRUM_TAUT_FIXED, STRUM_TAUT_FIXED, &t.chain, &fault) !=
         STRUM_OK)
         fail("baseline", fault.reason);

@@ -2,7 +2,7 @@
 /*
  * Gale's program of 1976 in C, to be measured against: the algorithm of his appendix B-1
  * (in-plane frequencies), step by step, without the faults of its print. libstrum's own series
- * method (src/core/series.c) is something else: it adapts, counts and estimates.
+ * method (src/core/suspended/series/series.c) is something else: it adapts, counts and estimates.
  */
 #ifndef TESTS_BENCH_GALE_H
 #define TESTS_BENCH_GALE_H

@@ -42,15 +42,15 @@ static inline void *give_up(void *unused)
     return unused;
 }
 
-static inline bool solve(const asking *a, text *answer, problem *p)
+static inline bool solve(const evaluation *a, strbuf *answer, problem *p)
 {
     static pthread_t thread;
     if (thread == 0 && pthread_create(&thread, NULL, give_up, NULL) != 0)
         return false;
-    watch w = {.cancel = &cancel};
+    observer w = {.cancel = &cancel};
     cancel = false;
     begun = now_s();
-    const bool good = asking_answer(a, "key", &w, answer, p);
+    const bool good = evaluation_answer(a, "key", &w, answer, p);
     begun = 0;
     return good;
 }
@@ -58,7 +58,7 @@ static inline bool solve(const asking *a, text *answer, problem *p)
 /* The daemon's own defaults. */
 static const json_limits limits = {.depth = 16, .values = 20000};
 
-static inline void must(bool good, const char *what, const text *shown)
+static inline void must(bool good, const char *what, const strbuf *shown)
 {
     if (good)
         return;
@@ -98,7 +98,7 @@ static inline const endpoint *take_endpoint(const uint8_t **data, size_t *size)
     return e != NULL ? e : endpoints[hash % count];
 }
 
-static inline void check_json(const text *document, int values, const char *what)
+static inline void check_json(const strbuf *document, int values, const char *what)
 {
     const json_limits wide = {.depth = JSON_DEPTH_MAX, .values = values};
     cJSON *read;
@@ -110,25 +110,25 @@ static inline void check_json(const text *document, int values, const char *what
 /* A refusal is JSON, and says that the fault is in what was asked. */
 static inline void check_refusal(problem *p)
 {
-    text out = {0};
+    strbuf out = {0};
     problem_write(p, NULL, &out);
     must(p->status == 400 || p->status == 405 || p->status == 413 || p->status == 422,
          "refused with a strange status", &out);
     check_json(&out, 1 << 12, "a refusal is not JSON");
-    text_clear(&out);
+    strbuf_clear(&out);
     problem_clear(p);
 }
 
 /* The bytes of the echo: numbers must not pass through another printer. */
-static inline text echo_of(const text *answer)
+static inline text echo_of(const strbuf *answer)
 {
     static const char before[] = "{\"request\":";
     must(answer->size > sizeof before && memcmp(answer->data, before, sizeof before - 1) == 0,
          "an answer does not begin with its request", answer);
-    text echo = {0};
+    strbuf echo = {0};
     int depth = 0;
     for (const char *at = answer->data + sizeof before - 1; *at != '\0'; at++) {
-        text_add(&echo, at, 1);
+        strbuf_add(&echo, at, 1);
         depth += (*at == '{') - (*at == '}'); /* no string of a request holds a brace */
         if (depth == 0)
             break;
@@ -137,34 +137,34 @@ static inline text echo_of(const text *answer)
 }
 
 /* Asked again as it was echoed, a question has the same key. */
-static inline void check_echo(const endpoint *e, const asking *a, const text *answer)
+static inline void check_echo(const endpoint *e, const evaluation *a, const strbuf *answer)
 {
     problem p = {0};
-    text first = {0}, second = {0}, echo = echo_of(answer);
-    asking *again = asking_read(e, echo.data, echo.size, &limits, &p);
+    strbuf first = {0}, second = {0}, echo = echo_of(answer);
+    evaluation *again = evaluation_read(e, echo.data, echo.size, &limits, &p);
     if (again == NULL)
         problem_write(&p, NULL, &second);
     must(again != NULL, "an echo is refused", second.data != NULL ? &second : &echo);
-    asking_canonical(a, &first);
-    asking_canonical(again, &second);
+    evaluation_canonical(a, &first);
+    evaluation_canonical(again, &second);
     must(first.size == second.size && memcmp(first.data, second.data, first.size) == 0,
          "an echo has another key", &echo);
-    asking_free(again);
-    text_clear(&echo);
-    text_clear(&first);
-    text_clear(&second);
+    evaluation_free(again);
+    strbuf_clear(&echo);
+    strbuf_clear(&first);
+    strbuf_clear(&second);
 }
 
 /* Takes over `a`; NULL: it was refused with `p`. */
-static inline void check_asking(const endpoint *e, asking *a, problem *p)
+static inline void check_asking(const endpoint *e, evaluation *a, problem *p)
 {
     if (a == NULL) {
         check_refusal(p);
         return;
     }
     must(p->status == 0, "taken with a fault", NULL);
-    if (asking_cost_us(a) <= cost_bound_us()) {
-        text answer = {0};
+    if (evaluation_cost_us(a) <= cost_bound_us()) {
+        strbuf answer = {0};
         if (solve(a, &answer, p)) {
             check_json(&answer, 1 << 20, "an answer is not JSON");
             check_echo(e, a, &answer);
@@ -173,9 +173,9 @@ static inline void check_asking(const endpoint *e, asking *a, problem *p)
         } else {
             check_refusal(p);
         }
-        text_clear(&answer);
+        strbuf_clear(&answer);
     }
-    asking_free(a);
+    evaluation_free(a);
 }
 
 #endif

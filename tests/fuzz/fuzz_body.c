@@ -19,6 +19,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const endpoint *e = take_endpoint(&data, &size);
     problem p = {0};
-    check_asking(e, asking_read(e, (const char *)data, size, &limits, &p), &p);
+    check_asking(e, evaluation_read(e, (const char *)data, size, &limits, &p), &p);
     return 0;
 }

@@ -35,7 +35,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         pairs[count++] = (query_pair){.name = pair, .value = value != NULL ? value : ""};
     }
     problem p = {0};
-    check_asking(e, asking_read_query(e, pairs, count, &p), &p);
+    check_asking(e, evaluation_read_query(e, pairs, count, &p), &p);
     free(query);
     return 0;
 }

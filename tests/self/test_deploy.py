@@ -114,13 +114,13 @@ def test_cluster_files_agree():
     assert {port["targetPort"] for port in load("service.yaml")["spec"]["ports"]} <= ports
     assert container["image"] == kustomization["images"][0]["name"]
     metric = load("autoscaling.yaml")["spec"]["metrics"][0]["pods"]["metric"]["name"]
-    assert f'"{metric.removeprefix("strum_")}"' in (ROOT / "src/http/metrics.c").read_text()
+    assert f'"{metric.removeprefix("strum_")}"' in (ROOT / "src/http/service/metrics.c").read_text()
 
 
 @pytest.mark.parametrize("probe", ["startupProbe", "livenessProbe", "readinessProbe"])
 def test_probes_are_routes(probe):
     container = load("deployment.yaml")["spec"]["template"]["spec"]["containers"][0]
-    assert f'{{"{container[probe]["httpGet"]["path"]}", ""' in (ROOT / "src/http/route.c").read_text()
+    assert f'{{"{container[probe]["httpGet"]["path"]}", ""' in (ROOT / "src/http/api/route.c").read_text()
 
 
 def test_the_proxy_hashes_as_the_ingress_does():
@@ -131,7 +131,7 @@ def test_the_proxy_hashes_as_the_ingress_does():
 def test_the_dashboard_shows_metrics_that_there_are():
     dashboard = json.loads((DEPLOY / "grafana/strum.json").read_text())
     expressions = [target["expr"] for panel in dashboard["panels"] for target in panel["targets"]]
-    source = (ROOT / "src/http/metrics.c").read_text()
+    source = (ROOT / "src/http/service/metrics.c").read_text()
     there = set(re.findall(r'"([a-z_]+)", "(?:counter|gauge)"', source)) | {"requests_total", "build_info"}
     there |= {"request_seconds_bucket", "solve_seconds_total"}
     shown = {name for expression in expressions for name in re.findall(r"strum_([a-z_]+)", expression)}

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#include "endpoints/schema.h"
+#include "schema/schema.h"
 
 /* ---- a suspended cable ---- */
 

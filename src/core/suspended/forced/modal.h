@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CORE_SUSPENDED_FORCED_MODAL_H
+#define CORE_SUSPENDED_FORCED_MODAL_H
+
+#include <strum/forced.h>
+
+#include "core/suspended/in_plane.h"
+
+/* One symmetry class of the in-plane problem: A f = mu K f, phi'K phi = 1. */
+typedef struct forced_part {
+    in_plane_part part;
+    in_plane_constants constants;
+    double *compliance;     /* A */
+    double *along, *across; /* K = along/m_t + across/m_n */
+    double *mu, *phi;       /* all n pairs, mu descending */
+    int modes;              /* pairs whose mu is more than rounding */
+    double *share[2];       /* phi.r for unit end motion in each direction of the frame */
+    double *rest[2]; /* sum of phi (phi.r) over the other pairs, which all answer alike */
+} forced_part;
+
+struct strum_forced {
+    strum_cable cable;
+    mapping coordinate;
+    double frequency_max;
+    bool in_plane, out_of_plane, proportional;
+    int size; /* basis functions */
+    int part_count;
+    forced_part parts[2];
+    double end[2][2];       /* tangent and normal at end 2 in the middle tangent frame */
+    double *out_nu, *out_v; /* out of plane: M v = nu K v */
+    double *out_inertia, *out_stretch; /* loads of the lifting (1 + x)/2 */
+    double *factors;                   /* of the legendre */
+    int samples;                       /* equally spaced in x, for the peak */
+    double *sample_q, *sample_t; /* q_k(x_i) at [i + k samples]; t: two components a sample */
+    arena memory;                /* owns all the above */
+};
+
+/* F = c + scale sum v_k q_k, X = (tt' inverse_t + nn' inverse_n) sum v_k p_k / (mu cosh chi).
+ */
+struct strum_response {
+    const strum_forced *forced;
+    strum_end_motion motion;
+    bool real; /* every coefficient is */
+    double _Complex constant[2], scale, inverse_t, inverse_n;
+    double *v[2][2];          /* by component and part (re, im) */
+    double _Complex *w, lift; /* out of plane: W = lift (1 + x)/2 + sum w_k q_k */
+    double *work;             /* factors, unknowns; samples of components */
+    double *table; /* p and q at a point, real and imaginary samples, two more samples */
+    double _Complex
+        *matrix; /* of the damped system, and its right side; NULL where modes serve */
+    arena memory;
+};
+
+/* Samples of the tension at the forced system's sample points: 2 x samples doubles, (re, im)
+ * halves. */
+void response_sample(const strum_response *response, double *re, double *im);
+/* T and dT/dx at x. */
+void response_tension(const strum_response *response, double x, double _Complex *tension,
+                      double _Complex *slope);
+/* The response of a free mode of a part: for residues. */
+void response_of_mode(strum_response *response, const forced_part *part, int mode);
+
+/* Out of plane: forced_out.c. */
+strum_status forced_out_of_plane_make(strum_forced *forced);
+strum_status forced_out_of_plane_solve(const strum_forced *forced, double frequency,
+                                       double _Complex lift, strum_response *response,
+                                       strum_resonance *at);
+double forced_out_of_plane_frequency(const strum_forced *forced, int j);
+double forced_out_of_plane_residue(const strum_forced *forced, int j, double _Complex lift,
+                                   double *table);
+
+/* An undamped answer nearer to a natural frequency than this is no answer: linear theory has
+ * left its range, and a frequency typed with nine digits is meant to be the natural one. */
+#define RESONANCE_WIDTH 1e-8
+
+#endif

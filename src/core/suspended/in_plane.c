@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/suspended/in_plane.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/numerics/linalg.h"
+
+strum_status in_plane_part_make(strum_symmetry symmetry, in_plane_form form, int size, arena *a,
+                                in_plane_part *part)
+{
+    part->symmetry = symmetry;
+    part->count = 0;
+    part->component = arena_alloc(a, 2 * (size_t)size, sizeof *part->component);
+    part->index = arena_alloc(a, 2 * (size_t)size, sizeof *part->index);
+    if (part->component == NULL || part->index == NULL)
+        return STRUM_ERR_MEMORY;
+    /* In a symmetric mode of a level cable the horizontal force is even and the vertical one
+     * odd, so only the horizontal one has a constant. q_k is odd for even k, p_k even. */
+    const int even_component = symmetry == STRUM_ANTISYMMETRIC ? 1 : 0;
+    for (int k = form == IN_PLANE_FORCE_FORM ? 0 : 1; k < size; k++) {
+        const int parity_component = k % 2 == (form == IN_PLANE_FORCE_FORM ? 1 : 0)
+                                         ? even_component
+                                         : 1 - even_component;
+        for (int component = 0; component < 2; component++) {
+            if (symmetry != STRUM_NO_SYMMETRY && component != parity_component)
+                continue;
+            part->component[part->count] = component;
+            part->index[part->count++] = k;
+        }
+    }
+    part->constant_count = symmetry == STRUM_NO_SYMMETRY ? 2 : 1;
+    part->constants[0] = symmetry == STRUM_NO_SYMMETRY ? 0 : even_component;
+    part->constants[1] = 1;
+    return STRUM_OK;
+}
+
+void in_plane_frame_at(const mapping *along, double x, double *cosh_chi, double *c, double *s)
+{
+    /* The angle from the middle tangent by products: its difference would cancel on a taut
+     * cable. */
+    const double middle = along->chi_m, half = mapping_offset(along, x) / 2;
+    const double chi = middle + 2 * half, both = cosh(chi) * cosh(middle);
+    *cosh_chi = cosh(chi);
+    *c = (1 + sinh(chi) * sinh(middle)) / both;
+    *s = 2 * cosh(middle + half) * sinh(half) / both;
+}
+
+strum_status in_plane_frame_make(const mapping *along, const legendre *b, arena *a,
+                                 in_plane_frame *frame)
+{
+    const size_t points = (size_t)b->points;
+    frame->b = b;
+    frame->cosh_chi = arena_doubles(a, 4 * points);
+    if (frame->cosh_chi == NULL)
+        return STRUM_ERR_MEMORY;
+    frame->c = frame->cosh_chi + points;
+    frame->s = frame->c + points;
+    frame->slope = frame->s + points;
+    for (size_t i = 0; i < points; i++) {
+        in_plane_frame_at(along, b->x[i], &frame->cosh_chi[i], &frame->c[i], &frame->s[i]);
+        frame->slope[i] = mapping_slope(along, b->x[i]);
+    }
+    return STRUM_OK;
+}
+
+/* Samples sqrt(weight) (direction . unknown): the Gram matrix of the columns is the wanted
+ * integral. */
+typedef struct rows {
+    double *data;
+    int count; /* rows; also the leading dimension */
+} rows;
+
+/* Column of component `component` with values v (NULL: constant 1): tangential rows, then
+ * normal rows; a direction without weight has no rows. Isotropic weights are sampled along the
+ * fixed axes instead, which leaves the components uncoupled exactly. */
+static void sample(const in_plane_frame *f, const double *root_t, const double *root_n,
+                   bool isotropic, int component, const double *v, double *column)
+{
+    const int points = f->b->points;
+    int row = 0;
+    if (root_t != NULL) {
+        const double *d = component == 0 ? f->c : f->s;
+        for (int i = 0; i < points; i++)
+            column[row++] = root_t[i] * (isotropic ? (component == 0) : d[i]) * (v ? v[i] : 1);
+    }
+    if (root_n != NULL) {
+        const double *d = component == 0 ? f->s : f->c, sign = component == 0 ? -1 : 1;
+        for (int i = 0; i < points; i++)
+            column[row++] =
+                root_n[i] * (isotropic ? (component == 1) : sign * d[i]) * (v ? v[i] : 1);
+    }
+}
+
+static strum_status sample_part(const in_plane_frame *f, const in_plane_part *part,
+                                const double *table, const double *root_t, const double *root_n,
+                                bool isotropic, arena *scratch, rows *out)
+{
+    const size_t points = (size_t)f->b->points;
+    out->count = (int)points * ((root_t != NULL) + (root_n != NULL));
+    out->data = arena_doubles(scratch, (size_t)out->count * (size_t)part->count);
+    if (out->data == NULL)
+        return STRUM_ERR_MEMORY;
+    for (int j = 0; j < part->count; j++)
+        sample(f, root_t, root_n, isotropic, part->component[j],
+               table + (size_t)part->index[j] * points,
+               out->data + (size_t)j * (size_t)out->count);
+    return STRUM_OK;
+}
+
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+static void invert_gram(const in_plane_part *part, double r[2][2], double inverse[2][2])
+{
+    const int i = part->constants[0], j = part->constants[1];
+    inverse[0][0] = inverse[0][1] = inverse[1][0] = inverse[1][1] = 0;
+    inverse[i][i] = 1 / (r[0][0] * r[0][0]);
+    if (part->constant_count == 1)
+        return;
+    const double slope = r[0][1] / (r[0][0] * r[1][1]);
+    inverse[i][i] += slope * slope;
+    inverse[i][j] = inverse[j][i] = -slope / r[1][1];
+    inverse[j][j] = 1 / (r[1][1] * r[1][1]);
+}
+
+/*
+ * Least squares of the columns on the constants' samples: the columns keep their residual,
+ * which makes A positive semidefinite as computed and keeps its digits on a taut cable.
+ */
+static strum_status project(const in_plane_frame *f, const in_plane_part *part,
+                            const double *root_t, const double *root_n, rows *w,
+                            in_plane_constants *constants, arena *scratch)
+{
+    const int n = w->count, m = part->constant_count;
+    double *q = arena_doubles(scratch, (size_t)n * 2);
+    if (q == NULL)
+        return STRUM_ERR_MEMORY;
+    double r[2][2] = {{0}};
+    for (int k = 0; k < m; k++) {
+        double *column = q + (size_t)k * (size_t)n;
+        sample(f, root_t, root_n, false, part->constants[k], NULL, column);
+        for (int pass = 0; pass < 2 && k == 1; pass++) { /* twice is enough */
+            const double along = dot(n, q, column);
+            r[0][1] += along;
+            for (int i = 0; i < n; i++)
+                column[i] -= along * q[i];
+        }
+        r[k][k] = sqrt(dot(n, column, column));
+        for (int i = 0; i < n; i++)
+            column[i] /= r[k][k];
+    }
+    if (constants != NULL) /* (W_c'W_c)^-1 = R^-1 R^-T */
+        invert_gram(part, r, constants->from_motion);
+    for (int j = 0; j < part->count; j++) {
+        double *column = w->data + (size_t)j * (size_t)n, y[2] = {0};
+        for (int pass = 0; pass < 2; pass++)
+            for (int k = 0; k < m; k++) {
+                const double *basis_k = q + (size_t)k * (size_t)n;
+                const double along = dot(n, basis_k, column);
+                y[k] += along;
+                for (int i = 0; i < n; i++)
+                    column[i] -= along * basis_k[i];
+            }
+        if (constants == NULL)
+            continue;
+        double *c = constants->from_unknowns + 2 * (size_t)j;
+        c[0] = c[1] = 0;
+        if (m == 2)
+            y[0] -= r[0][1] / r[1][1] * y[1];
+        for (int k = 0; k < m; k++)
+            c[part->constants[k]] = -y[k] / r[k][k];
+    }
+    return STRUM_OK;
+}
+
+strum_status in_plane_compliance(const strum_cable *cable, const in_plane_frame *f,
+                                 const in_plane_part *part, in_plane_form form,
+                                 double *compliance, in_plane_constants *constants,
+                                 arena *scratch)
+{
+    const int points = f->b->points;
+    double *root_n = arena_doubles(scratch, 2 * (size_t)points);
+    if (root_n == NULL)
+        return STRUM_ERR_MEMORY;
+    double *root_t = cable->kappa_t > 0 ? root_n + points : NULL;
+    for (int i = 0; i < points; i++) {
+        const double w = f->b->w[i] * f->slope[i], cosh_chi = f->cosh_chi[i];
+        root_n[i] = sqrt(w * (1 + cable->kappa_n * cosh_chi));
+        if (root_t != NULL)
+            root_t[i] = sqrt(w * cable->kappa_t * cosh_chi);
+    }
+    rows w;
+    strum_status status = sample_part(f, part, form == IN_PLANE_FORCE_FORM ? f->b->q : f->b->p,
+                                      root_t, root_n, false, scratch, &w);
+    if (status == STRUM_OK)
+        status = project(f, part, root_t, root_n, &w, constants, scratch);
+    if (status == STRUM_OK)
+        linalg_gram(part->count, w.count, w.data, w.count, compliance, part->count);
+    return status;
+}
+
+/* INT v_i . (tt' weight_t + nn' weight_n) v_j (cosh dchi/dx)^power dx. */
+static strum_status weighted(double weight_t, double weight_n, int power,
+                             const in_plane_frame *f, const in_plane_part *part,
+                             const double *table, double *matrix, arena *scratch)
+{
+    const int points = f->b->points;
+    const size_t n = (size_t)part->count;
+    double *root = arena_doubles(scratch, 2 * (size_t)points);
+    if (root == NULL)
+        return STRUM_ERR_MEMORY;
+    double *root_t = weight_t > 0 ? root : NULL, *root_n = weight_n > 0 ? root + points : NULL;
+    if (root_t == NULL && root_n == NULL) {
+        memset(matrix, 0, n * n * sizeof *matrix);
+        return STRUM_OK;
+    }
+    for (int i = 0; i < points; i++) {
+        const double length = f->cosh_chi[i] * f->slope[i]; /* dsigma/dx */
+        const double w = f->b->w[i] * (power > 0 ? length : 1 / length);
+        root[i] = sqrt(w * weight_t);
+        root[i + points] = sqrt(w * weight_n);
+    }
+    rows w;
+    const strum_status status =
+        sample_part(f, part, table, root_t, root_n, weight_t == weight_n, scratch, &w);
+    if (status == STRUM_OK)
+        linalg_gram(part->count, w.count, w.data, w.count, matrix, part->count);
+    return status;
+}
+
+strum_status in_plane_inertia(double weight_t, double weight_n, const in_plane_frame *f,
+                              const in_plane_part *part, in_plane_form form, double *matrix,
+                              arena *scratch)
+{
+    return weighted(weight_t, weight_n, 1, f, part,
+                    form == IN_PLANE_FORCE_FORM ? f->b->p : f->b->q, matrix, scratch);
+}
+
+strum_status in_plane_complementary(double weight_t, double weight_n, const in_plane_frame *f,
+                                    const in_plane_part *part, double *matrix, arena *scratch)
+{
+    return weighted(weight_t, weight_n, -1, f, part, f->b->p, matrix, scratch);
+}

@@ -1,0 +1,417 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Modes of a cable: sizes, the agreement of two of them, order and number. */
+#include "core/suspended/modes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/suspended/displacement.h"
+
+strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_plane plane,
+                            in_plane_form form, int size, int block, int want, bool vectors,
+                            arena *a, root_list *list, root_list *inner,
+                            in_plane_part *parts[3])
+{
+    if (plane == STRUM_OUT_OF_PLANE)
+        return out_of_plane_roots(cable, x, form == IN_PLANE_CLAMPED_FORM, size, block, want,
+                                  vectors, a, list, inner);
+    const bool level = cable->chi_m == 0;
+    const strum_symmetry first = level ? STRUM_SYMMETRIC : STRUM_NO_SYMMETRY;
+    const strum_symmetry last = level ? STRUM_ANTISYMMETRIC : STRUM_NO_SYMMETRY;
+    for (strum_symmetry symmetry = first; symmetry <= last; symmetry++) {
+        in_plane_assembly *m = arena_alloc(a, 1, sizeof *m);
+        if (m == NULL)
+            return STRUM_ERR_MEMORY;
+        strum_status status = in_plane_assemble(cable, x, symmetry, form, size, a, m);
+        if (status == STRUM_OK)
+            status = in_plane_roots(cable, m, form, size, want, vectors, a, list);
+        if (status == STRUM_OK && inner != NULL)
+            status = in_plane_roots(cable, m, form, block, want, false, a, inner);
+        if (status != STRUM_OK)
+            return status;
+        if (parts != NULL)
+            parts[symmetry] = &m->part;
+    }
+    return STRUM_OK;
+}
+
+static int by_frequency(const void *left, const void *right)
+{
+    const root *l = left, *r = right;
+    if (cimag(l->s) != cimag(r->s))
+        return cimag(l->s) < cimag(r->s) ? -1 : 1;
+    return creal(l->s) < creal(r->s) ? -1 : creal(l->s) > creal(r->s);
+}
+
+static int by_value(const void *left, const void *right)
+{
+    const double l = *(const double *)left, r = *(const double *)right;
+    return l < r ? -1 : l > r;
+}
+
+/* No decay rate of an overdamped motion exceeds the largest ratio of damping to mass. */
+static double largest_rate(const strum_cable *cable, strum_plane plane)
+{
+    const double normal = cable->eta_n / cable->mass_n;
+    return plane == STRUM_OUT_OF_PLANE ? normal : fmax(normal, cable->eta_t / cable->mass_t);
+}
+
+strum_status spectrum_sort(const strum_cable *cable, strum_plane plane, const root_list *list,
+                           int count, arena *a, root_list *modes, double **decays,
+                           int *overdamped)
+{
+    const size_t room = (size_t)(list->count > 0 ? list->count : 1);
+    modes->items = arena_alloc(a, room, sizeof *modes->items);
+    modes->count = 0;
+    *decays = arena_doubles(a, room);
+    *overdamped = 0;
+    if (modes->items == NULL || *decays == NULL)
+        return STRUM_ERR_MEMORY;
+    const double limit = largest_rate(cable, plane) * (1 + 1e-9);
+    for (int i = 0; i < list->count; i++) {
+        const double _Complex s = list->items[i].s;
+        if (cimag(s) > 0)
+            modes->items[modes->count++] = list->items[i];
+        else if (-creal(s) > 0 && -creal(s) <= limit)
+            (*decays)[(*overdamped)++] = -creal(s);
+    }
+    qsort(modes->items, (size_t)modes->count, sizeof *modes->items, by_frequency);
+    qsort(*decays, (size_t)*overdamped, sizeof **decays, by_value);
+    if (modes->count > count)
+        modes->count = count;
+    return STRUM_OK;
+}
+
+/* INT of the wave number of unit frequency, of transverse waves and along an elastic cable of
+ * longitudinal ones; and its largest value in x. */
+static void wave_phase(const strum_cable *cable, const mapping *x, strum_plane plane,
+                       double *phase, double *steepest)
+{
+    enum { STEPS = 64 };
+    *phase = *steepest = 0;
+    for (int i = 0; i <= STEPS; i++) {
+        const double at = 2.0 * i / STEPS - 1, slope = mapping_slope(x, at);
+        const double c = cosh(cable->chi_m + mapping_offset(x, at));
+        const double across = sqrt(cable->mass_n * (1 + cable->kappa_n * c) * c);
+        const double along =
+            plane == STRUM_IN_PLANE ? sqrt(cable->mass_t * cable->kappa_t) * c : 0;
+        *phase += (i == 0 || i == STEPS ? 0.5 : 1) * 2 / STEPS * slope * (across + along);
+        *steepest = fmax(*steepest, fmax(across, along) * slope);
+    }
+}
+
+double spectrum_phase_count(const strum_cable *cable, strum_plane plane, double frequency)
+{
+    const mapping x = mapping_linear(cable);
+    double phase, steepest;
+    wave_phase(cable, &x, plane, &phase, &steepest);
+    return frequency * phase / M_PI;
+}
+
+/*
+ * A wave e^{ikx} on [-1, 1] needs about k + 3 k^{1/3} + 7 Legendre functions for 1e-7 of
+ * itself, hence 1e-13 of a frequency; slopes and the singularities at chi = +-i pi/2 of a deep
+ * cable add to it. Too small a first size costs a second round, never digits.
+ */
+int spectrum_first_size(const strum_cable *cable, const mapping *x, strum_plane plane,
+                        int count)
+{
+    double phase, steepest;
+    wave_phase(cable, x, plane, &phase, &steepest);
+    const double k = (count + 1) * M_PI / phase * steepest;
+    return (int)ceil(k + 3.2 * cbrt(k) + 7 + 1.9 / mapping_singularity(x) +
+                     0.6 * fabs(cable->chi_m));
+}
+
+/* 2.5 keeps the lowest point, where the coefficients vary most, in sight of the functions. */
+#define STRETCH 2.5
+/* Rounding grows with the range of cosh chi in the integrals' weights; from here on it shows,
+ * and a stretched coordinate takes a root of it: this one where the lowest point lies well
+ * inside. */
+#define CHI_STEEP     9
+#define STRETCH_STEEP 5
+
+/* Another coordinate is worth it for what is both large and made much smaller, and for digits.
+ */
+mapping spectrum_mapping(const strum_cable *cable, strum_plane plane, int count)
+{
+    const mapping linear = mapping_linear(cable);
+    const mapping stretched = mapping_stretched(cable, STRETCH);
+    const int size = spectrum_first_size(cable, &linear, plane, count);
+    if (size > 120 && spectrum_first_size(cable, &stretched, plane, count) < 0.75 * size)
+        return stretched;
+    if (fabs(cable->chi_m) + cable->mu < CHI_STEEP)
+        return linear;
+    return mapping_ellipse_rate(&stretched) > 0.02 ? stretched
+                                                   : mapping_stretched(cable, STRETCH_STEEP);
+}
+
+/* Largest relative difference of each root of `list` to the nearest of `other`. */
+static double disagreement(const root_list *list, const double *decays, int overdamped,
+                           const root_list *other, const double *other_decays,
+                           int other_overdamped)
+{
+    double worst = 0;
+    if (other->count < list->count || other_overdamped != overdamped)
+        return INFINITY;
+    for (int i = 0; i < list->count; i++) {
+        const root *r = &list->items[i];
+        double nearest = INFINITY;
+        for (int j = 0; j < other->count; j++) {
+            const root *o = &other->items[j];
+            if (o->symmetry == r->symmetry)
+                nearest =
+                    fmin(nearest, r->natural > 0 ? fabs(o->natural - r->natural) / r->natural
+                                                 : cabs(o->s - r->s) / cabs(r->s));
+        }
+        worst = fmax(worst, nearest);
+    }
+    /* a proportional pair is as good as its natural frequency, which may sit beside critical
+     * damping */
+    for (int i = 0; i < overdamped && (list->count == 0 || list->items[0].natural == 0); i++)
+        worst = fmax(worst, fabs(decays[i] - other_decays[i]) / decays[i]);
+    return worst;
+}
+
+strum_status spectrum_check_cable(const strum_cable *c, strum_error *fault)
+{
+    const double values[] = {c->chi_m,  c->mu,     c->kappa_t, c->kappa_n,
+                             c->mass_t, c->mass_n, c->eta_t,   c->eta_n};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        if (!isfinite(values[i]))
+            return error_set(fault, STRUM_ERR_RANGE, "a property of the cable is not finite");
+    if (!(c->mu > 0 && fabs(c->chi_m) + c->mu <= STRUM_CHI_MAX * (1 + 1e-12)))
+        return error_set(fault, STRUM_ERR_RANGE, "the slope parameters must lie within +-%g",
+                         STRUM_CHI_MAX);
+    if (!(c->kappa_t >= 0 && c->kappa_n >= 0 && c->eta_t >= 0 && c->eta_n >= 0 &&
+          c->mass_t > 0 && c->mass_n > 0))
+        return error_set(fault, STRUM_ERR_RANGE,
+                         "masses must be positive, flexibility and damping not negative");
+    return STRUM_OK;
+}
+
+/* Frequencies alone of an inextensible cable of moderate depth come as well from the
+ * displacement form, which is half as large. */
+static bool by_displacement(const strum_cable *c, strum_plane plane, bool shapes)
+{
+    return plane == STRUM_IN_PLANE && !shapes && c->kappa_t == 0 && c->kappa_n == 0 &&
+           in_plane_proportional(c) && fabs(c->chi_m) + c->mu <= DISPLACEMENT_CHI_PRECISE;
+}
+
+/* Largest of the last coefficients of any mode, relative to the mode's largest: what the size
+ * leaves out of the shapes, which converge at half the rate of the frequencies. */
+static double shape_tail(const strum_spectrum *sp)
+{
+    double worst = 0;
+    for (int i = 0; i < sp->count; i++) {
+        const root *r = &sp->roots[i];
+        double largest = 0, last = 0;
+        for (int j = 0; j < r->length; j++) {
+            const int k =
+                sp->plane == STRUM_OUT_OF_PLANE ? j : sp->parts[r->symmetry]->index[j];
+            largest = fmax(largest, cabs(r->vector[j]));
+            if (k >= sp->size - 4)
+                last = fmax(last, cabs(r->vector[j]));
+        }
+        worst = fmax(worst, last / largest);
+    }
+    return worst;
+}
+
+/* Relative; makes shapes right to about 1e-9 of their largest value. Where no larger size can
+ * be solved or would help, a hundred times it is let pass: a verification shows it as residual.
+ */
+#define SHAPE_TAIL_MAX 1e-11
+
+/* One try at one size; STRUM_ERR_ACCURACY when the two sizes differ or shapes are cut off:
+ * `*excess` is how many times too much. */
+static strum_status attempt(strum_spectrum *sp, int size, int block, int want, int count,
+                            double tolerance, double *excess)
+{
+    arena *a = &sp->memory;
+    root_list all = {0}, inner = {0}, modes, inner_modes;
+    double *inner_decays;
+    int inner_overdamped;
+    strum_status status =
+        by_displacement(&sp->cable, sp->plane, sp->shapes)
+            ? displacement_roots(&sp->cable, sp->cable.chi_m == 0, size, block, want, a, &all,
+                                 &inner)
+            : spectrum_roots(&sp->cable, &sp->coordinate, sp->plane, IN_PLANE_FORCE_FORM, size,
+                             block, want, sp->shapes, a, &all, &inner, sp->parts);
+    if (status == STRUM_OK)
+        status = spectrum_sort(&sp->cable, sp->plane, &all, count, a, &modes, &sp->decays,
+                               &sp->overdamped);
+    if (status == STRUM_OK)
+        status = spectrum_sort(&sp->cable, sp->plane, &inner, inner.count, a, &inner_modes,
+                               &inner_decays, &inner_overdamped);
+    if (status != STRUM_OK)
+        return status;
+    sp->difference = disagreement(&modes, sp->decays, sp->overdamped, &inner_modes,
+                                  inner_decays, inner_overdamped);
+    sp->size = size;
+    sp->count = modes.count;
+    sp->roots = modes.items;
+    sp->tail = sp->shapes ? shape_tail(sp) : 0;
+    *excess = fmax(sp->difference / tolerance, sp->tail / SHAPE_TAIL_MAX);
+    return modes.count == count && *excess <= 1 ? STRUM_OK : STRUM_ERR_ACCURACY;
+}
+
+static strum_status number_modes(strum_spectrum *sp)
+{
+    sp->modes = arena_alloc(&sp->memory, (size_t)sp->count, sizeof *sp->modes);
+    if (sp->modes == NULL)
+        return STRUM_ERR_MEMORY;
+    for (int i = 0; i < sp->count; i++)
+        sp->modes[i] = (strum_mode){.frequency = cimag(sp->roots[i].s),
+                                    .decay = 0 - creal(sp->roots[i].s),
+                                    .symmetry = sp->roots[i].symmetry};
+    if (!sp->shapes)
+        return STRUM_OK;
+    sp->factors = arena_doubles(&sp->memory, 4 * (size_t)sp->size);
+    if (sp->factors == NULL)
+        return STRUM_ERR_MEMORY;
+    legendre_factors(sp->size, sp->factors);
+    return spectrum_normalise(sp);
+}
+
+/* Grows the size until two agree. */
+static strum_status solve(strum_spectrum *sp, int count, strum_error *fault)
+{
+    const double critical = largest_rate(&sp->cable, sp->plane) / 2;
+    const double lost = ceil(1.1 * spectrum_phase_count(&sp->cable, sp->plane, critical));
+    if (lost > 2 * STRUM_MODES_MAX)
+        return error_set(
+            fault, STRUM_ERR_RANGE,
+            "about %.6g modes would be overdamped, more than %d: less damping can be "
+            "answered",
+            lost, 2 * STRUM_MODES_MAX);
+    const int want = count + (int)lost;
+    const bool damped = sp->cable.eta_t > 0 || sp->cable.eta_n > 0;
+    const double tolerance = damped ? 1e-10 : 1e-12;
+    const int most = sp->plane == STRUM_OUT_OF_PLANE || in_plane_proportional(&sp->cable)
+                         ? SPECTRUM_SIZE_MAX
+                         : SPECTRUM_SIZE_MAX_QUADRATIC;
+    sp->coordinate = spectrum_mapping(&sp->cable, sp->plane, want);
+    const bool slim = by_displacement(&sp->cable, sp->plane, sp->shapes);
+    /* what converges slowly needs more of a difference between the two sizes */
+    const bool steep = sp->coordinate.stretch != 0;
+    /* shapes converge at half the rate of frequencies */
+    double block = slim ? displacement_first_size(&sp->cable, want)
+                        : spectrum_first_size(&sp->cable, &sp->coordinate, sp->plane, want) *
+                              (sp->shapes ? 1.35 : 1);
+    double before = INFINITY, excess = INFINITY;
+    while (block < most) {
+        const int inner = (int)block;
+        const int size = inner + (slim         ? displacement_margin(&sp->cable, inner)
+                                  : steep      ? inner / 4
+                                  : inner > 40 ? inner / 10
+                                               : 4);
+        const strum_status status = attempt(sp, size, inner, want, count, tolerance, &excess);
+        block = 1.3 * block + 6;
+        /* rounding, not size, stands in the way once a larger size helps no more */
+        const bool stalled = sp->difference < 1e-8 && excess > before / 3;
+        const bool passable = (stalled || block >= most) && sp->count == count &&
+                              sp->difference <= tolerance && sp->tail < 100 * SHAPE_TAIL_MAX;
+        if (status == STRUM_OK || (status == STRUM_ERR_ACCURACY && passable))
+            return number_modes(sp);
+        if (status != STRUM_ERR_ACCURACY)
+            return error_set(fault, status, "%s", strum_status_text(status));
+        arena_free(&sp->memory);
+        if (stalled)
+            break;
+        before = excess;
+    }
+    if (sp->size == 0)
+        return error_set(
+            fault, STRUM_ERR_ACCURACY,
+            "%d modes of this cable need about %.0f unknowns a component; %d can be "
+            "solved",
+            want, block, most);
+    if (sp->difference <= tolerance && sp->tail > 100 * SHAPE_TAIL_MAX)
+        return error_set(fault, STRUM_ERR_ACCURACY,
+                         "the last terms of the mode shapes are still %.1e of the first (%.0e "
+                         "is promised) at %d unknowns a component; frequencies alone can be "
+                         "answered",
+                         sp->tail, 100 * SHAPE_TAIL_MAX, sp->size);
+    return error_set(
+        fault, STRUM_ERR_ACCURACY,
+        "two sizes still differ by %.1e (%.0e is promised) at %d unknowns a component",
+        sp->difference, tolerance, sp->size);
+}
+
+strum_status strum_modes_solve(const strum_cable *cable, strum_plane plane, int count,
+                               bool shapes, strum_spectrum **spectrum, strum_error *fault)
+{
+    *spectrum = NULL;
+    strum_status status = spectrum_check_cable(cable, fault);
+    if (status != STRUM_OK)
+        return status;
+    if (count < 1 || count > STRUM_MODES_MAX)
+        return error_set(fault, STRUM_ERR_RANGE, "1 to %d modes can be asked for",
+                         STRUM_MODES_MAX);
+    strum_spectrum *sp = calloc(1, sizeof *sp);
+    if (sp == NULL)
+        return error_set(fault, STRUM_ERR_MEMORY, "out of memory");
+    sp->cable = *cable;
+    sp->plane = plane;
+    sp->shapes = shapes;
+    status = solve(sp, count, fault);
+    if (status != STRUM_OK)
+        strum_spectrum_free(&sp);
+    *spectrum = sp;
+    return status;
+}
+
+double strum_modes_work(const strum_cable *cable, strum_plane plane, int count, bool shapes)
+{
+    const double lost = spectrum_phase_count(cable, plane, largest_rate(cable, plane) / 2);
+    const int want = count + (int)fmin(lost, 400);
+    const bool level = cable->chi_m == 0; /* a symmetry to split by */
+    /* measured: tests/bench; a fixed part, assembly, and the eigenproblems */
+    if (by_displacement(cable, plane, shapes)) {
+        const double size = displacement_first_size(cable, want);
+        return 25 + size * size * ((level ? 0.04 : 0.09) + (level ? 1.5e-4 : 6e-4) * size);
+    }
+    const mapping x = spectrum_mapping(cable, plane, want);
+    double size = spectrum_first_size(cable, &x, plane, want) * (shapes ? 1.35 : 1);
+    if (plane == STRUM_IN_PLANE && !level)
+        size *= 2;
+    const bool quadratic = plane == STRUM_IN_PLANE && !in_plane_proportional(cable);
+    return 30 + 0.04 * size * size + (quadratic ? 0.03 : 0.0016) * size * size * size;
+}
+
+void strum_spectrum_free(strum_spectrum **spectrum)
+{
+    if (*spectrum != NULL) {
+        arena_free(&(*spectrum)->memory);
+        free(*spectrum);
+        *spectrum = NULL;
+    }
+}
+
+int strum_spectrum_count(const strum_spectrum *sp)
+{
+    return sp->count;
+}
+
+const strum_mode *strum_spectrum_mode(const strum_spectrum *sp, int index)
+{
+    return &sp->modes[index];
+}
+
+int strum_spectrum_overdamped(const strum_spectrum *sp, const double **decays)
+{
+    *decays = sp->decays;
+    return sp->overdamped;
+}
+
+double strum_spectrum_difference(const strum_spectrum *sp)
+{
+    return sp->difference;
+}
+
+int strum_spectrum_size(const strum_spectrum *sp)
+{
+    return sp->size;
+}

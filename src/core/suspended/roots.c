@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/suspended/roots.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/numerics/linalg.h"
+
+void roots_of_natural(double w, double rate, const root *model, root_list *list)
+{
+    const double half = rate / 2, beyond = half * half - w * w;
+    root r = *model;
+    r.natural = w;
+    if (beyond < 0) {
+        r.s = CMPLX(-half, sqrt((w - half) * (w + half)));
+        list->items[list->count++] = r;
+        return;
+    }
+    const double fast = half + sqrt(beyond);
+    r.s = -fast;
+    list->items[list->count++] = r;
+    r.s = -w * w / fast;
+    list->items[list->count++] = r;
+}
+
+bool in_plane_proportional(const strum_cable *cable)
+{
+    return cable->eta_t * cable->mass_n == cable->eta_n * cable->mass_t;
+}
+
+strum_status root_list_grow(root_list *list, int more, arena *a)
+{
+    root *items = arena_alloc(a, (size_t)(list->count + more), sizeof *items);
+    if (items == NULL)
+        return STRUM_ERR_MEMORY;
+    if (list->count > 0)
+        memcpy(items, list->items, (size_t)list->count * sizeof *items);
+    list->items = items;
+    return STRUM_OK;
+}
+
+strum_status in_plane_assemble(const strum_cable *cable, const mapping *x,
+                               strum_symmetry symmetry, in_plane_form form, int size, arena *a,
+                               in_plane_assembly *out)
+{
+    legendre b;
+    in_plane_frame frame;
+    strum_status status =
+        legendre_make(size, mapping_singularity(x), symmetry != STRUM_NO_SYMMETRY, a, &b);
+    if (status == STRUM_OK)
+        status = in_plane_frame_make(x, &b, a, &frame);
+    if (status == STRUM_OK)
+        status = in_plane_part_make(symmetry, form, size, a, &out->part);
+    if (status != STRUM_OK)
+        return status;
+    const size_t n = (size_t)out->part.count;
+    const bool symmetric = form == IN_PLANE_FORCE_FORM && in_plane_proportional(cable);
+    out->compliance = arena_doubles(a, n * n);
+    out->constants.from_unknowns = arena_doubles(a, 2 * n);
+    out->complementary = symmetric ? arena_doubles(a, n * n) : NULL;
+    out->mass = symmetric ? NULL : arena_doubles(a, n * n);
+    out->damping = symmetric ? NULL : arena_doubles(a, n * n);
+    if (out->compliance == NULL || out->constants.from_unknowns == NULL ||
+        (symmetric ? out->complementary == NULL : out->mass == NULL || out->damping == NULL))
+        return STRUM_ERR_MEMORY;
+    status = in_plane_compliance(cable, &frame, &out->part, form, out->compliance,
+                                 &out->constants, a);
+    if (status == STRUM_OK && symmetric)
+        return in_plane_complementary(1 / cable->mass_t, 1 / cable->mass_n, &frame, &out->part,
+                                      out->complementary, a);
+    if (status == STRUM_OK)
+        status = in_plane_inertia(cable->mass_t, cable->mass_n, &frame, &out->part, form,
+                                  out->mass, a);
+    if (status == STRUM_OK)
+        status = in_plane_inertia(cable->eta_t, cable->eta_n, &frame, &out->part, form,
+                                  out->damping, a);
+    return status;
+}
+
+static void constants_of(const in_plane_assembly *m, root *r)
+{
+    r->constant[0] = r->constant[1] = 0;
+    for (int j = 0; j < r->length; j++)
+        for (int k = 0; k < 2; k++)
+            r->constant[k] += m->constants.from_unknowns[2 * j + k] * r->vector[j];
+}
+
+/* Appends symmetric eigenpairs mu = 1/w^2. */
+static strum_status append_symmetric(double rate, int n, int want, const double *mu,
+                                     const double *vectors, const root *model, arena *a,
+                                     root_list *list)
+{
+    const strum_status status = root_list_grow(list, 2 * want, a);
+    if (status != STRUM_OK)
+        return status;
+    for (int i = 0; i < want && mu[i] > 1e-14 * mu[0]; i++) {
+        root r = *model;
+        if (vectors != NULL) {
+            r.vector = arena_alloc(a, (size_t)n, sizeof *r.vector);
+            if (r.vector == NULL)
+                return STRUM_ERR_MEMORY;
+            r.length = n;
+            for (int j = 0; j < n; j++)
+                r.vector[j] = vectors[j + (size_t)i * (size_t)n];
+        }
+        roots_of_natural(1 / sqrt(mu[i]), rate, &r, list);
+    }
+    return STRUM_OK;
+}
+
+/* Complementary form, undamped or proportionally damped: A f = (1/w^2) K f. */
+static strum_status complementary_roots(const strum_cable *cable, const in_plane_assembly *m,
+                                        int n, int want, bool vectors, arena *a,
+                                        root_list *list)
+{
+    const int full = m->part.count;
+    want = want < n ? want : n;
+    const bool need = vectors || want > LINALG_POLISH_FROM;
+    double *mu = arena_doubles(a, (size_t)n);
+    double *v = need ? arena_doubles(a, (size_t)n * (size_t)want) : NULL;
+    if (mu == NULL || (need && v == NULL))
+        return STRUM_ERR_MEMORY;
+    strum_status status =
+        linalg_symmetric(n, m->compliance, full, m->complementary, full, want, mu, v, a);
+    if (status != STRUM_OK)
+        return status;
+    const root model = {.symmetry = m->part.symmetry};
+    const int before = list->count;
+    status = append_symmetric(cable->eta_t / cable->mass_t, n, want, mu, vectors ? v : NULL,
+                              &model, a, list);
+    for (int i = before; status == STRUM_OK && vectors && i < list->count; i++)
+        constants_of(m, &list->items[i]);
+    return status;
+}
+
+/* Root z of (g.g) z^2 + (g.Cg) z + g.Mg = 0 nearest to z: the two-sided Rayleigh functional
+ * (the problem is complex symmetric, so left and right vectors agree), whose error is the
+ * square of the vector's. */
+static double _Complex polish_root(int n, const double *c, const double *m,
+                                   const double _Complex *g, double _Complex z)
+{
+    double _Complex q2 = 0, q1 = 0, q0 = 0;
+    for (int j = 0; j < n; j++) {
+        double _Complex cj = 0, mj = 0;
+        for (int i = 0; i < n; i++) {
+            cj += c[i + (size_t)j * (size_t)n] * g[i];
+            mj += m[i + (size_t)j * (size_t)n] * g[i];
+        }
+        q2 += g[j] * g[j];
+        q1 += g[j] * cj;
+        q0 += g[j] * mj;
+    }
+    const double _Complex derivative = 2 * q2 * z + q1;
+    const double _Complex step = (q2 * z * z + q1 * z + q0) / derivative;
+    return cabs(step) < 1e-4 * cabs(z) ? z - step : z;
+}
+
+/* `polish`: vectors are worth their time only at the full size, whose values are the answer.
+ *
+ * Mixed form: with A = LL' and g = L'f, z = 1/s solves z^2 g + z L'DL g + L'ML g = 0. */
+static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vectors,
+                                    bool polish, arena *a, root_list *list)
+{
+    const int full = m->part.count;
+    const size_t size = (size_t)n;
+    double *block = arena_doubles(a, size * size), *l = arena_doubles(a, size * size);
+    double *half = arena_doubles(a, size * size);
+    if (block == NULL || l == NULL || half == NULL)
+        return STRUM_ERR_MEMORY;
+    for (size_t j = 0; j < size; j++)
+        memcpy(block + j * size, m->compliance + j * (size_t)full, size * sizeof *block);
+    int r;
+    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a);
+    if (status != STRUM_OK)
+        return status;
+    const size_t rank = (size_t)r;
+    double *c = arena_doubles(a, rank * rank), *mass = arena_doubles(a, rank * rank);
+    double _Complex *z = arena_alloc(a, 2 * rank, sizeof *z);
+    double _Complex *g = polish ? arena_alloc(a, 2 * rank * rank, sizeof *g) : NULL;
+    if (c == NULL || mass == NULL || z == NULL || (polish && g == NULL))
+        return STRUM_ERR_MEMORY;
+    linalg_multiply('N', 'N', n, r, n, m->damping, full, l, n, half, n);
+    linalg_multiply('T', 'N', r, r, n, l, n, half, n, c, r);
+    linalg_multiply('N', 'N', n, r, n, m->mass, full, l, n, half, n);
+    linalg_multiply('T', 'N', r, r, n, l, n, half, n, mass, r);
+    status = linalg_quadratic(r, c, mass, z, g, a);
+    if (status == STRUM_OK)
+        status = root_list_grow(list, 2 * r, a);
+    double largest = 0;
+    for (size_t k = 0; k < 2 * rank; k++)
+        largest = fmax(largest, cabs(z[k]));
+    for (size_t k = 0; status == STRUM_OK && k < 2 * rank; k++) {
+        /* of a conjugate pair the one with Im s > 0; z near 0 is rounding of an infinite s */
+        if (cimag(z[k]) > 0 || cabs(z[k]) < 1e-12 * largest)
+            continue;
+        root found = {.symmetry = m->part.symmetry};
+        const double _Complex *gk = polish ? g + k * rank : NULL;
+        found.s = 1 / (polish ? polish_root(r, c, mass, gk, z[k]) : z[k]);
+        if (cimag(z[k]) == 0)
+            found.s = creal(found.s);
+        if (vectors) {
+            /* x = -L g, f = (s^2 M + s D) x */
+            double _Complex *x = arena_alloc(a, 2 * size, sizeof *x);
+            if (x == NULL)
+                return STRUM_ERR_MEMORY;
+            double _Complex *f = x + size;
+            for (size_t i = 0; i < rank; i++)
+                for (size_t j = 0; j < size; j++)
+                    x[j] -= l[j + i * size] * gk[i];
+            for (size_t i = 0; i < size; i++)
+                for (size_t j = 0; j < size; j++)
+                    f[j] += (found.s * found.s * m->mass[j + i * (size_t)full] +
+                             found.s * m->damping[j + i * (size_t)full]) *
+                            x[i];
+            found.vector = f;
+            found.length = n;
+            constants_of(m, &found);
+        }
+        list->items[list->count++] = found;
+    }
+    return status;
+}
+
+/* Mixed form without damping that is not proportional: L'ML g = (1/w^2) g. */
+static strum_status mixed_roots(const strum_cable *cable, const in_plane_assembly *m, int n,
+                                int want, arena *a, root_list *list)
+{
+    const int full = m->part.count;
+    const size_t size = (size_t)n;
+    double *block = arena_doubles(a, size * size), *l = arena_doubles(a, size * size);
+    double *half = arena_doubles(a, size * size), *mu = arena_doubles(a, size);
+    if (block == NULL || l == NULL || half == NULL || mu == NULL)
+        return STRUM_ERR_MEMORY;
+    for (size_t j = 0; j < size; j++)
+        memcpy(block + j * size, m->compliance + j * (size_t)full, size * sizeof *block);
+    int r;
+    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a);
+    if (status != STRUM_OK)
+        return status;
+    linalg_multiply('N', 'N', n, r, n, m->mass, full, l, n, half, n);
+    linalg_multiply('T', 'N', r, r, n, l, n, half, n, block, r);
+    want = want < r ? want : r;
+    double *v = arena_doubles(a, (size_t)r * (size_t)want);
+    if (v == NULL)
+        return STRUM_ERR_MEMORY;
+    status = linalg_symmetric(r, block, r, NULL, 0, want, mu, v, a);
+    const root model = {.symmetry = m->part.symmetry};
+    return status == STRUM_OK ? append_symmetric(cable->eta_t / cable->mass_t, r, want, mu,
+                                                 NULL, &model, a, list)
+                              : status;
+}
+
+strum_status in_plane_roots(const strum_cable *cable, const in_plane_assembly *m,
+                            in_plane_form form, int size, int want, bool vectors, arena *a,
+                            root_list *list)
+{
+    int n = 0;
+    while (n < m->part.count && m->part.index[n] < size)
+        n++;
+    if (!in_plane_proportional(cable))
+        return quadratic_roots(m, n, vectors, n == m->part.count, a, list);
+    return form == IN_PLANE_FORCE_FORM
+               ? complementary_roots(cable, m, n, want, vectors, a, list)
+               : mixed_roots(cable, m, n, want, a, list);
+}

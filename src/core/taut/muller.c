@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Muller's method with deflation, as Levesque's MULLER finds his roots: a parabola through
+ * three points, its nearer zero is the next point; F is divided by (s - root) for every root
+ * found before. Nothing ties a root to the guess it was started from: it may belong to another
+ * mode, and some may never be found. Offered to show that, beside the certified search.
+ */
+#include "core/taut/taut.h"
+
+#include <float.h>
+
+typedef struct sample {
+    cplx s, f;
+    double log_scale;
+} sample;
+
+static sample take(taut_search *search, cplx s, const cplx *found, size_t count)
+{
+    const taut_value v = taut_search_value(search, s);
+    sample a = {s, v.f, v.log_scale};
+    for (size_t i = 0; i < count; i++) {
+        const cplx apart = s - found[i];
+        if (apart != 0.0)
+            a.f = over(a.f, apart / search->spacing);
+    }
+    return a;
+}
+
+bool taut_muller(taut_search *search, cplx guess, const cplx *found, size_t count, cplx *root)
+{
+    sample a = take(search, 0.99 * guess, found, count);
+    sample b = take(search, 1.01 * guess, found, count);
+    sample c = take(search, guess, found, count);
+    for (int n = 0; n < 100 && search->status == STRUM_OK; n++) {
+        const cplx fc = c.f, fb = b.f * exp(b.log_scale - c.log_scale),
+                   fa = a.f * exp(a.log_scale - c.log_scale);
+        if (fc == 0.0)
+            break;
+        const cplx cb = over(fb - fc, b.s - c.s), ba = over(fa - fb, a.s - b.s);
+        const cplx bend = over(ba - cb, a.s - c.s), slope = cb + times(c.s - b.s, bend);
+        const cplx root_of = csqrt(times(slope, slope) - 4.0 * times(fc, bend));
+        const cplx plus = slope + root_of, minus = slope - root_of;
+        const cplx below = cabs(plus) > cabs(minus) ? plus : minus;
+        const cplx move = over(-2.0 * fc, below);
+        if (!isfinite(creal(move)) || !isfinite(cimag(move)))
+            return false;
+        a = b;
+        b = c;
+        c = take(search, c.s + move, found, count);
+        if (cabs(move) <= 1e-14 * cabs(c.s))
+            break;
+    }
+    *root = c.s;
+    /* taken as a root where Newton's method, without deflation, stays */
+    cplx polished = c.s;
+    if (search->status != STRUM_OK || !taut_newton(search, &polished) ||
+        cabs(polished - c.s) > 1e-6 * cabs(c.s))
+        return false;
+    *root = cimag(polished) < 0.0 ? conj(polished) : polished;
+    return true;
+}

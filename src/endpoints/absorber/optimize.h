@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What asking for an absorber (absorber_optimize.c) and writing it down (absorber_answer.c)
+ * share. */
+#ifndef ENDPOINTS_ABSORBER_OPTIMIZE_H
+#define ENDPOINTS_ABSORBER_OPTIMIZE_H
+
+#include <strum/absorber.h>
+
+#include "endpoints/common/chain.h"
+
+typedef struct absorber_variable {
+    field_set given;
+    name_value name;
+    double min, max;
+} absorber_variable;
+
+typedef struct absorber_required {
+    field_set given;
+    double strouhal, reduced_damping, diameter_m, fluid_kg_per_m3;
+} absorber_required;
+
+typedef struct absorber_sweep {
+    field_set given;
+    name_value variable;
+    int64_t points;
+} absorber_sweep;
+
+typedef struct absorber_request {
+    chain_input in;
+    objects_value variables; /* of absorber_variable */
+    numbers_value modes, band_rad_per_s, current_m_per_s;
+    int objective;
+    absorber_required required;
+    absorber_sweep sweep;
+    int64_t max_evaluations;
+    double time_limit_s;
+
+    /* computed by prepare */
+    long *mode_numbers;
+    double band[2];
+    name_value names[STRUM_ABSORBER_VARIABLES_MAX];
+    double low[STRUM_ABSORBER_VARIABLES_MAX], high[STRUM_ABSORBER_VARIABLES_MAX];
+} absorber_request;
+
+extern const schema absorber_schema;
+
+typedef struct absorber_solving {
+    const absorber_request *r;
+    answer *a;
+    strum_absorber_problem problem;
+    double deadline;
+    bool late;
+} absorber_solving;
+
+/* From now on the problem may take so many seconds; `late` says whether it took more. */
+void absorber_allow(absorber_solving *s, double seconds);
+/* Index of a declared variable (the first of that name), or -1. */
+int absorber_variable_index(const absorber_request *r, const char *name);
+
+/* The result; false with a->problem set. */
+bool absorber_write(absorber_solving *s, const strum_absorber_optimum *best,
+                    const strum_taut_roots *roots);
+
+#endif

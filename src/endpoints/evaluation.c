@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One asking: read and completed, keyed, answered. */
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <strum/status.h>
+
+#include "endpoints/endpoint.h"
+
+/* Of the canonical form itself: raised when equal bytes would come to mean something else. */
+#define CANONICAL_VERSION "1"
+
+struct evaluation {
+    const endpoint *endpoint;
+    void *request; /* owned by the arena */
+    schema_arena *arena;
+};
+
+/* Checks across fields, and the evaluation itself; takes the arena. */
+static evaluation *evaluation_complete(const endpoint *e, void *request, schema_arena *arena,
+                                       problem *p)
+{
+    if (request != NULL && e->prepare != NULL)
+        e->prepare(request, arena, p);
+    evaluation *a = request != NULL && p->status == 0 ? malloc(sizeof *a) : NULL;
+    if (a == NULL) {
+        schema_free(arena);
+        if (p->status == 0)
+            problem_out_of_memory(p);
+        return NULL;
+    }
+    *a = (evaluation){.endpoint = e, .request = request, .arena = arena};
+    return a;
+}
+
+evaluation *evaluation_read_item(const endpoint *e, const cJSON *item, problem *p)
+{
+    schema_arena *arena = NULL;
+    void *request = schema_read(e->request, item, e->variables, &arena, p);
+    return evaluation_complete(e, request, arena, p);
+}
+
+evaluation *evaluation_read(const endpoint *e, const char *body, size_t size,
+                            const json_limits *limits, problem *p)
+{
+    cJSON *document;
+    if (!json_read(body, size, limits, &document, p))
+        return NULL;
+    evaluation *a = evaluation_read_item(e, document, p);
+    cJSON_Delete(document);
+    return a;
+}
+
+evaluation *evaluation_read_query(const endpoint *e, const query_pair *pairs, size_t count,
+                                  problem *p)
+{
+    if (!e->query) {
+        problem_set(p, 405, "%s takes nested lists: send JSON by POST", e->path);
+        return NULL;
+    }
+    schema_arena *arena = NULL;
+    void *request = schema_read_query(e->request, pairs, count, &arena, p);
+    return evaluation_complete(e, request, arena, p);
+}
+
+void evaluation_free(evaluation *a)
+{
+    if (a == NULL)
+        return;
+    schema_free(a->arena);
+    free(a);
+}
+
+void evaluation_canonical(const evaluation *a, strbuf *out)
+{
+    strbuf_add(out, a->endpoint->path, strlen(a->endpoint->path) + 1);
+    strbuf_add(out, CANONICAL_VERSION, sizeof CANONICAL_VERSION);
+    strbuf_add(out, strum_version(), strlen(strum_version()) + 1);
+    schema_canonical(a->endpoint->request, a->request, out);
+}
+
+double evaluation_cost_us(const evaluation *a)
+{
+    return a->endpoint->cost_us(a->request);
+}
+
+void answer_warn(answer *a, const char *format, ...)
+{
+    strbuf sentence = {0};
+    va_list arguments;
+    va_start(arguments, format);
+    strbuf_format_list(&sentence, format, arguments);
+    va_end(arguments);
+    if (sentence.failed) {
+        a->warnings->failed = true;
+    } else {
+        json_writer json = {.out = a->warnings, .comma = a->warnings->size > 0};
+        json_string(&json, sentence.data);
+    }
+    strbuf_clear(&sentence);
+}
+
+void answer_progress(const answer *a, int64_t evaluations, double best, const char *what)
+{
+    if (a->observer != NULL && a->observer->progress != NULL)
+        a->observer->progress(a->observer, &(progress){evaluations, best, what});
+}
+
+bool answer_cancelled(const answer *a)
+{
+    return a->cancel != NULL && atomic_load_explicit(a->cancel, memory_order_relaxed);
+}
+
+static double now_us(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e6 * (double)now.tv_sec + 1e-3 * (double)now.tv_nsec;
+}
+
+static void write_end(const answer *answered, const char *key, json_writer *json)
+{
+    json_key(json, "warnings");
+    json_open_array(json);
+    if (answered->warnings->size > 0)
+        json_raw(json, answered->warnings->data, answered->warnings->size);
+    json_close_array(json);
+    json_key(json, "meta");
+    json_open_object(json);
+    json_put_string(json, "key", key);
+    json_key(json, "solver");
+    strbuf solver = {0};
+    strbuf_format(&solver, "strum %s", strum_version());
+    json_string(json, solver.failed ? "" : solver.data);
+    json->out->failed |= solver.failed;
+    strbuf_clear(&solver);
+    if (answered->theory != NULL)
+        json_put_string(json, "theory", answered->theory);
+    json_close_object(json);
+}
+
+bool evaluation_answer(const evaluation *a, const char *key, observer *w, strbuf *out,
+                       problem *p)
+{
+    strbuf warnings = {0};
+    json_writer json = {.out = out};
+    answer answered = {.result = &json,
+                       .warnings = &warnings,
+                       .cancel = w != NULL ? w->cancel : NULL,
+                       .observer = w,
+                       .problem = p};
+    json_open_object(&json);
+    json_key(&json, "request");
+    schema_echo(a->endpoint->request, a->request, &json);
+    json_key(&json, "result");
+    const double start = now_us();
+    bool good = a->endpoint->answer(a->request, &answered);
+    if (w != NULL) {
+        w->solve_us = now_us() - start;
+        w->transient = answered.transient;
+    }
+    if (good) {
+        write_end(&answered, key, &json);
+        json_close_object(&json);
+    }
+    if (good && (out->failed || warnings.failed)) {
+        problem_set(p, 500,
+                    "the answer could not be written: memory ran out, or a result is "
+                    "not a finite number");
+        good = false;
+    }
+    if (!good) {
+        strbuf_clear(out);
+        problem_set(p, 500, "no answer was found, for a reason that was not given");
+    }
+    strbuf_clear(&warnings);
+    return good;
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What asking for a forced motion (forced_tension.c) and writing its answer down
+ * (forced_answer.c) share. */
+#ifndef ENDPOINTS_FORCED_TENSION_H
+#define ENDPOINTS_FORCED_TENSION_H
+
+#include <strum/forced.h>
+
+#include "endpoints/common/suspended_cable.h"
+
+#define FORCED_HARMONICS_MAX 16
+
+typedef struct forced_request {
+    cable_input in;
+    double tangential_displacement, normal_displacement, out_of_plane_displacement;
+    double tangential_displacement_m, normal_displacement_m, out_of_plane_displacement_m;
+    objects_value harmonics;
+    numbers_value frequency_ratios, profiles_at, profile_chi;
+    double frequency_ratio_min, frequency_ratio_max;
+    int64_t points, profile_points;
+    bool verify;
+
+    /* computed by prepare */
+    strum_end_motion motions[FORCED_HARMONICS_MAX];
+    int multiples[FORCED_HARMONICS_MAX], motion_count;
+    double highest; /* frequency ratio, times the highest multiple */
+    bool in_plane, out_of_plane;
+} forced_request;
+
+bool forced_given(const forced_request *r, const char *name);
+/* The forcing frequencies of the curve, in sqrt(g/a). */
+int forced_frequency_count(const forced_request *r);
+double forced_frequency_at(const forced_request *r, int i);
+
+/* The result; false with a->problem set. */
+bool forced_answer(const void *request, answer *a);
+
+#endif

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* /v1/taut/matrix: transfer matrices of a chain and of its components (Li's library, in
+ * Levesque 1997). */
+#include "endpoints/common/chain.h"
+
+#define FREQUENCIES_MAX 10000
+/* Matrices of one answer, those of components included. */
+#define MATRICES_MAX 100000
+
+typedef struct request {
+    chain_input in;
+    complexes_value angular_frequencies;
+} request;
+
+static const field fields[] = {
+    CHAIN_FIELDS,
+    {FIELD_AT(FIELD_COMPLEXES, request, angular_frequencies), .unit = "rad/s", .max = 1e9,
+     .min_items = 1, .max_items = FREQUENCIES_MAX, .flags = FIELD_REQUIRED,
+     .help = "frequencies w of e^{i w t}: numbers, or {re, im}; im > 0 decays"},
+    {.kind = FIELD_END}};
+
+static const schema request_schema = {
+    .name = "taut_matrix_request", .fields = fields, .size = sizeof(request)};
+
+static void prepare(void *data, schema_arena *arena, problem *p)
+{
+    (void)arena;
+    const request *r = data;
+    chain_prepare(&r->in, p);
+    if ((r->in.components.count + 1) * r->angular_frequencies.count > MATRICES_MAX)
+        problem_add(p, "/angular_frequencies",
+                    "%zu frequencies of %zu components are more than %d matrices",
+                    r->angular_frequencies.count, r->in.components.count, MATRICES_MAX);
+}
+
+static double cost_us(const void *data)
+{
+    const request *r = data;
+    return 10 + 2.0 * (double)(r->in.components.count * r->angular_frequencies.count);
+}
+
+static void write_matrix(json_writer *json, const double _Complex matrix[4])
+{
+    json_open_array(json);
+    for (int k = 0; k < 4; k++)
+        json_complex(json, matrix[k]);
+    json_close_array(json);
+}
+
+/* The members of one frequency. */
+static strum_status write_at(json_writer *json, const strum_taut *chain, size_t components,
+                             double _Complex w, strum_error *fault)
+{
+    double _Complex matrix[4];
+    strum_status status = strum_taut_matrix(chain, creal(w), cimag(w), matrix, fault);
+    if (status != STRUM_OK)
+        return status;
+    json_open_object(json);
+    json_put_complex(json, "angular_frequency", w);
+    json_key(json, "chain");
+    write_matrix(json, matrix);
+    json_key(json, "components");
+    json_open_array(json);
+    for (size_t i = 0; i < components && status == STRUM_OK; i++) {
+        status = strum_taut_component_matrix(chain, i, creal(w), cimag(w), matrix, fault);
+        if (status == STRUM_OK)
+            write_matrix(json, matrix);
+    }
+    json_close_array(json);
+    json_close_object(json);
+    return status;
+}
+
+static bool respond(const void *data, answer *a)
+{
+    const request *r = data;
+    json_writer *json = a->result;
+    strum_error fault = {0};
+    strum_taut *chain;
+    a->theory =
+        "transfer matrices of Li's library (in Levesque 1997), from rigid-body mechanics "
+        "where the printed ones err; state (y, T y'), right = F left, F = F_n ... F_1, "
+        "e^{+i w t}";
+    strum_status status = chain_make(&r->in, NULL, &chain, &fault);
+    json_open_object(json);
+    json_key(json, "matrices");
+    json_open_array(json);
+    for (size_t i = 0; i < r->angular_frequencies.count && status == STRUM_OK; i++) {
+        status = write_at(json, chain, r->in.components.count, r->angular_frequencies.items[i],
+                          &fault);
+        if (a->cancel != NULL && atomic_load(a->cancel))
+            status = STRUM_ERR_CANCELLED;
+    }
+    json_close_array(json);
+    json_close_object(json);
+    strum_taut_free(&chain);
+    if (status != STRUM_OK)
+        chain_refuse(&fault, status, a->problem);
+    return status == STRUM_OK;
+}
+
+const endpoint taut_matrix = {.path = "/v1/taut/matrix",
+                              .title = "Transfer matrices of a chain and of its components",
+                              .request = &request_schema,
+                              .prepare = prepare,
+                              .cost_us = cost_us,
+                              .answer = respond};

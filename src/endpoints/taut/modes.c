@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* /v1/taut/modes: modes of a taut chain (Levesque 1997; Sergev and Iwan 1980). */
+#include <math.h>
+#include <stdlib.h>
+
+#include "endpoints/common/chain.h"
+
+#define MODES_MAX        1000
+#define SHAPE_POINTS_MAX 2000
+/* Nodes of one answer: an upper bound from the mode numbers. */
+#define NODES_MAX 200000
+/* One varying cable costs as much as so many other components (power series over its tension).
+ */
+#define VARYING_COST 500.0
+
+static const char *const methods[] = {"certified", "muller", NULL};
+
+typedef struct request {
+    chain_input in;
+    int64_t modes, first_mode, shape_points;
+    numbers_value mode_numbers, band_rad_per_s;
+    double max_decay_per_s;
+    int method;
+    bool nodes, verify;
+
+    long *numbers; /* asked by number: computed by prepare, owned by the arena */
+    size_t number_count;
+} request;
+
+static const field fields[] = {
+    CHAIN_FIELDS,
+    CHAIN_END_FIELDS,
+    {FIELD_AT(FIELD_INTEGER, request, modes), .min = 1, .max = MODES_MAX,
+     .flags = FIELD_DEFAULT, .fallback = 10, .help = "how many modes, from first_mode on"},
+    {FIELD_AT(FIELD_INTEGER, request, first_mode), .min = 1, .max = STRUM_TAUT_MODE_MAX,
+     .flags = FIELD_DEFAULT, .fallback = 1, .help = "number of the first mode"},
+    {FIELD_AT(FIELD_NUMBERS, request, mode_numbers), .min = 1, .max = STRUM_TAUT_MODE_MAX,
+     .flags = FIELD_ASCENDING | FIELD_WHOLE, .min_items = 1, .max_items = MODES_MAX,
+     .help = "these modes"},
+    {FIELD_AT(FIELD_NUMBERS, request, band_rad_per_s), .unit = "rad/s", .min = 1e-9, .max = 1e9,
+     .flags = FIELD_ASCENDING, .min_items = 2, .max_items = 2,
+     .help = "all modes between these two frequencies"},
+    {FIELD_AT(FIELD_NUMBER, request, max_decay_per_s), .unit = "1/s", .min = 0, .max = 1e9,
+     .flags = FIELD_OPEN_MIN,
+     .help = "with a band: up to this decay; default the upper end of the band"},
+    {FIELD_AT(FIELD_CHOICE, request, method), .choices = methods, .flags = FIELD_DEFAULT,
+     .help = "certified: counted, so that none is missing; muller: Muller's method with "
+             "deflation as in the report, with a warning where it misses or hops"},
+    {FIELD_AT(FIELD_INTEGER, request, shape_points), .min = 0, .max = SHAPE_POINTS_MAX,
+     .flags = FIELD_DEFAULT,
+     .help = "points of each mode shape, equally spaced, ends included; 0: none, else at least "
+             "2"},
+    {FIELD_AT(FIELD_FLAG, request, nodes), .flags = FIELD_DEFAULT, .fallback = 1,
+     .help = "give nodes and antinodes (of chains without damping)"},
+    {FIELD_AT(FIELD_FLAG, request, verify), .flags = FIELD_DEFAULT,
+     .help = "check the answer by a second, independent method"},
+    {.kind = FIELD_END}};
+
+static const char *const which[] = {"[modes] [first_mode]", "mode_numbers",
+                                    "band_rad_per_s [max_decay_per_s]", NULL};
+static const field_groups groups[] = {{"which modes", true, which}, {0}};
+
+static const schema request_schema = {
+    .name = "taut_modes_request", .fields = fields, .groups = groups, .size = sizeof(request)};
+
+static bool by_band(const request *r)
+{
+    return r->band_rad_per_s.count > 0;
+}
+
+static void fill_numbers(request *r, schema_arena *arena, problem *p)
+{
+    const bool listed = r->mode_numbers.count > 0;
+    r->number_count = listed ? r->mode_numbers.count : (size_t)r->modes;
+    r->numbers = schema_alloc(arena, r->number_count * sizeof *r->numbers);
+    if (r->numbers == NULL) {
+        problem_out_of_memory(p);
+        return;
+    }
+    double nodes = 0.0;
+    for (size_t i = 0; i < r->number_count; i++) {
+        r->numbers[i] = listed ? (long)r->mode_numbers.items[i] : (long)r->first_mode + (long)i;
+        nodes += (double)r->numbers[i];
+    }
+    if (r->numbers[r->number_count - 1] > STRUM_TAUT_MODE_MAX)
+        problem_add(p, "/first_mode", "mode numbers go up to %d", STRUM_TAUT_MODE_MAX);
+    if (r->nodes && nodes > NODES_MAX)
+        problem_add(
+            p, "/nodes",
+            "these modes have up to %.0f nodes, more than %d: ask fewer modes, or nodes: "
+            "false",
+            nodes, NODES_MAX);
+}
+
+static void prepare(void *data, schema_arena *arena, problem *p)
+{
+    request *r = data;
+    chain_prepare(&r->in, p);
+    if (r->shape_points == 1)
+        problem_add(p, "/shape_points",
+                    "must be 0 or at least 2, so that both ends are among them");
+    if (!by_band(r)) {
+        fill_numbers(r, arena, p);
+    } else if (!field_given(&request_schema, r, "max_decay_per_s")) {
+        r->max_decay_per_s = r->band_rad_per_s.items[1];
+        field_give(&request_schema, r, "max_decay_per_s");
+    }
+}
+
+/* Modes asked, or about as many as the band holds. */
+static double mode_estimate(const request *r, const strum_taut *chain)
+{
+    return by_band(r) ? (double)strum_taut_count(chain, r->band_rad_per_s.items[1]) -
+                            (double)strum_taut_count(chain, r->band_rad_per_s.items[0]) + 3.0
+                      : (double)r->number_count;
+}
+
+static double cost_us(const void *data)
+{
+    const request *r = data;
+    const double parts =
+        (double)r->in.components.count + VARYING_COST * (double)chain_varying(&r->in);
+    strum_taut *chain;
+    if (chain_make(&r->in, NULL, &chain, NULL) != STRUM_OK)
+        return 10.0;
+    const double modes = mode_estimate(r, chain);
+    const bool damped = strum_taut_is_damped(chain);
+    strum_taut_free(&chain);
+    /* Heavy damping may have thousands of overdamped roots: never while others wait. */
+    return (damped ? 200.0 : 20.0) +
+           modes * parts *
+               (damped     ? 15.0
+                : r->nodes ? 1.0
+                           : 0.2) +
+           (r->verify ? (damped ? 1e5 : 1e3 + 2.0 * modes * parts) : 0.0) +
+           modes * (double)r->shape_points * 0.3;
+}
+
+/* ---- answering ---- */
+
+static void write_nodes(json_writer *json, const strum_taut_shape *shape)
+{
+    const double *nodes;
+    const strum_taut_antinode *antinodes;
+    const size_t node_count = strum_taut_shape_nodes(shape, &nodes);
+    const size_t antinode_count = strum_taut_shape_antinodes(shape, &antinodes);
+    json_key(json, "nodes_m");
+    json_open_array(json);
+    for (size_t i = 0; i < node_count; i++)
+        json_number(json, nodes[i]);
+    json_close_array(json);
+    json_key(json, "antinodes");
+    json_open_array(json);
+    for (size_t i = 0; i < antinode_count; i++) {
+        json_open_object(json);
+        json_put_number(json, "x_m", antinodes[i].x);
+        json_put_number(json, "amplitude", antinodes[i].amplitude);
+        json_close_object(json);
+    }
+    json_close_array(json);
+}
+
+/* Undamped shapes are real. */
+static void put_value(json_writer *json, const char *key, bool damped, double _Complex value)
+{
+    if (damped)
+        json_put_complex(json, key, value);
+    else
+        json_put_number(json, key, creal(value));
+}
+
+static strum_status write_shape(json_writer *json, const request *r, bool damped,
+                                const strum_taut_shape *shape, strum_error *fault)
+{
+    const size_t count = (size_t)r->shape_points;
+    strum_taut_point *points = malloc(count * sizeof *points);
+    if (points == NULL)
+        return STRUM_ERR_MEMORY;
+    const strum_status status = strum_taut_shape_sample(shape, count, points, fault);
+    json_key(json, "shape");
+    json_open_array(json);
+    for (size_t i = 0; i < count && status == STRUM_OK; i++) {
+        json_open_object(json);
+        json_put_number(json, "x_m", points[i].x);
+        put_value(json, "displacement", damped, points[i].displacement);
+        put_value(json, "force_N_per_m", damped, points[i].force);
+        json_close_object(json);
+    }
+    json_close_array(json);
+    free(points);
+    return status;
+}
+
+static strum_status write_mode(json_writer *json, const request *r, const strum_taut *chain,
+                               const strum_taut_root *root, strum_error *fault)
+{
+    const bool damped = strum_taut_is_damped(chain);
+    strum_taut_shape *shape = NULL;
+    strum_status status = STRUM_OK;
+    json_open_object(json);
+    chain_write_root(json, root);
+    if (root->frequency > 0.0 && ((r->nodes && !damped) || r->shape_points > 0))
+        status = strum_taut_shape_make(chain, root, &shape, fault);
+    if (shape != NULL && r->nodes && !damped)
+        write_nodes(json, shape);
+    if (shape != NULL && r->shape_points > 0)
+        status = write_shape(json, r, damped, shape, fault);
+    strum_taut_shape_free(&shape);
+    json_close_object(json);
+    return status;
+}
+
+static void write_count(json_writer *json, const strum_taut_roots *roots)
+{
+    json_key(json, "count");
+    json_open_object(json);
+    json_put_string(json, "method", roots->count_method);
+    json_put_integer(json, "expected", roots->expected);
+    json_put_integer(json, "found", roots->found);
+    json_put_number(json, "lowest_rad_per_s", roots->lowest);
+    json_put_number(json, "highest_rad_per_s", roots->highest);
+    json_put_number(json, "max_decay_per_s", roots->max_decay);
+    json_put_integer(json, "axis_expected", roots->axis_expected);
+    json_put_integer(json, "axis_found", roots->axis_found);
+    json_put_integer(json, "evaluations", roots->evaluations);
+    json_close_object(json);
+}
+
+static strum_status write_verification(json_writer *json, const strum_taut *chain,
+                                       const strum_taut_roots *roots, answer *a,
+                                       strum_error *fault)
+{
+    strum_taut_verification v;
+    const strum_status status = strum_taut_verify(chain, roots, &v, fault);
+    if (status == STRUM_ERR_METHOD) {
+        answer_warn(a, "not verified: %s; ask a narrower band", fault->reason);
+        return STRUM_OK;
+    }
+    if (status != STRUM_OK)
+        return status;
+    json_key(json, "verification");
+    json_open_object(json);
+    json_put_string(json, "method", v.method);
+    json_put_number(json, "max_relative_difference", v.max_relative_difference);
+    json_put_integer(json, "modes_expected", v.modes_expected);
+    json_put_integer(json, "modes_found", v.modes_found);
+    json_put_number(json, "max_residual", v.max_residual);
+    json_close_object(json);
+    return STRUM_OK;
+}
+
+static void warn(const strum_taut_roots *roots, answer *a)
+{
+    if (roots->lost > 0)
+        answer_warn(
+            a,
+            "the branches of %ld modes could not be followed to the full damping (their decay "
+            "grows without bound, or they meet other roots): no root has their numbers; a band "
+            "gives all roots, with or without",
+            roots->lost);
+    if (roots->missed > 0)
+        answer_warn(a,
+                    "Muller's method missed %ld of the roots that the count expects; "
+                    "method certified gives them all",
+                    roots->missed);
+    if (roots->hopped > 0)
+        answer_warn(a,
+                    "Muller's method hopped: %ld of its roots belong to another mode than the "
+                    "one whose undamped frequency it started from",
+                    roots->hopped);
+    for (size_t i = 0; i < roots->count; i++)
+        if (roots->roots[i].exceptional < CHAIN_EXCEPTIONAL) {
+            answer_warn(
+                a,
+                "two roots coalesce at %.9g rad/s (an exceptional point): frequencies and "
+                "decays there have half the digits, and the numbers of the two modes "
+                "depend on the path",
+                roots->roots[i].frequency);
+            break;
+        }
+    bool unnumbered = false;
+    for (size_t i = 0; i < roots->count; i++)
+        unnumbered = unnumbered || roots->roots[i].mode == 0;
+    if (unnumbered)
+        answer_warn(a, "roots without a number lie on no branch from zero damping");
+}
+
+static strum_status write_result(const request *r, const strum_taut *chain,
+                                 const strum_taut_roots *roots, answer *a, strum_error *fault)
+{
+    json_writer *json = a->result;
+    strum_status status = STRUM_OK;
+    json_open_object(json);
+    json_put_number(json, "length_m", strum_taut_length(chain));
+    json_put_flag(json, "damped", strum_taut_is_damped(chain));
+    json_key(json, "modes");
+    json_open_array(json);
+    for (size_t i = 0; i < roots->count && status == STRUM_OK; i++) {
+        status = write_mode(json, r, chain, &roots->roots[i], fault);
+        if (a->cancel != NULL && atomic_load(a->cancel))
+            status = STRUM_ERR_CANCELLED;
+    }
+    json_close_array(json);
+    json_key(json, "overdamped");
+    json_open_array(json);
+    for (size_t i = 0; i < roots->overdamped_count; i++) {
+        json_open_object(json);
+        chain_write_root(json, &roots->overdamped[i]);
+        json_close_object(json);
+    }
+    json_close_array(json);
+    write_count(json, roots);
+    json_put_string(json, "normalisation",
+                    "the largest displacement along the chain is 1 (the leftmost where tied)");
+    if (r->verify && status == STRUM_OK)
+        status = write_verification(json, chain, roots, a, fault);
+    json_close_object(json);
+    return status;
+}
+
+static bool respond(const void *data, answer *a)
+{
+    const request *r = data;
+    const strum_taut_query query = {.numbers = r->numbers,
+                                    .count = r->number_count,
+                                    .lowest = by_band(r) ? r->band_rad_per_s.items[0] : 0.0,
+                                    .highest = by_band(r) ? r->band_rad_per_s.items[1] : 0.0,
+                                    .max_decay = by_band(r) ? r->max_decay_per_s : 0.0,
+                                    .method = r->method == 1 ? STRUM_TAUT_MULLER
+                                                             : STRUM_TAUT_CERTIFIED,
+                                    .cancelled = a->cancel != NULL ? chain_cancelled : NULL,
+                                    .context = (void *)(uintptr_t)a->cancel};
+    strum_error fault = {0};
+    strum_taut *chain = NULL;
+    strum_taut_roots *roots = NULL;
+    strum_status status = chain_make(&r->in, NULL, &chain, &fault);
+    if (status == STRUM_OK)
+        status = strum_taut_solve(chain, &query, &roots, &fault);
+    if (status == STRUM_OK) {
+        a->theory = strum_taut_is_damped(chain)
+                        ? "taut chain by transfer matrices (Levesque 1997): branches followed "
+                          "from zero damping, certified by the argument principle"
+                        : "taut chain by transfer matrices (Levesque 1997; Sergev and Iwan "
+                          "1980): every mode by an exact shooting count";
+        warn(roots, a);
+        status = write_result(r, chain, roots, a, &fault);
+    }
+    strum_taut_roots_free(&roots);
+    strum_taut_free(&chain);
+    if (status != STRUM_OK)
+        chain_refuse(&fault, status, a->problem);
+    return status == STRUM_OK;
+}
+
+const endpoint taut_modes = {
+    .path = "/v1/taut/modes",
+    .title = "Modes of a taut chain of cables, masses, rigid bodies, absorbers and supports",
+    .request = &request_schema,
+    .prepare = prepare,
+    .cost_us = cost_us,
+    .answer = respond};

@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "http/api/batch.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "http/api/solve_handler.h"
+#include "http/transport/clock.h"
+#include "http/api/batch_reader.h"
+#include "http/api/reply.h"
+#include "http/transport/server.h"
+
+/* So many items may have been begun and not been sent, or answers of so many bytes: whichever
+ * is less. */
+#define WINDOW       64
+#define WINDOW_BYTES (1 << 20)
+/* A worker that has been at a batch for so long goes on to what others wait for. */
+#define TURN_US 1000
+/* Workers at one batch; never more than there are. */
+#define RUNNERS 16
+/* Lines are handed on when they are so many bytes together. */
+#define LINES_SIZE 16384
+
+typedef enum slot_state {
+    SLOT_FREE,
+    SLOT_BEGUN,   /* a worker reads it */
+    SLOT_WAITING, /* its waiter was taken by the cache */
+    SLOT_DONE
+} slot_state;
+
+/* An item of the window. */
+typedef struct slot {
+    waiter waiter;
+    struct batch *batch;
+    size_t index;
+    const char *bytes; /* of the item */
+    size_t size;
+    slot_state state;
+    entry *outcome; /* referenced; NULL when done: memory ran out */
+} slot;
+
+typedef struct runner {
+    job job;
+    struct batch *batch;
+    bool running;
+} runner;
+
+typedef struct batch {
+    stream stream;
+    server *server;
+    strbuf body;
+    pthread_mutex_t lock; /* of what follows */
+    batch_reader items;
+    size_t begun, sent, total, bytes;
+    bool ended;
+    slot slots[WINDOW];
+    size_t runner_count;
+    runner runners[RUNNERS];
+} batch;
+
+static slot *slot_of(batch *b, size_t index)
+{
+    return &b->slots[index % WINDOW];
+}
+
+/* ---- an item, on a worker ---- */
+
+static void finish(slot *s, entry *outcome)
+{
+    batch *b = s->batch;
+    pthread_mutex_lock(&b->lock);
+    s->outcome = outcome;
+    s->state = SLOT_DONE;
+    b->bytes += outcome ? outcome->size : 0;
+    const bool first = s->index == b->sent;
+    pthread_mutex_unlock(&b->lock);
+    if (first)
+        stream_wake(&b->stream);
+}
+
+static void wake(waiter *w, entry *outcome)
+{
+    slot *s = (slot *)(void *)w;
+    batch *b = s->batch;
+    finish(s, outcome);
+    stream_unref(&b->stream);
+}
+
+/* {"path", "request"}: the endpoint and the request, or NULL. */
+static const endpoint *read_members(const cJSON *item, const cJSON **asked, problem *p)
+{
+    const endpoint *e = NULL;
+    *asked = NULL;
+    if (!cJSON_IsObject(item)) {
+        problem_add(p, "", "an item is an object with \"path\" and \"request\"");
+        return NULL;
+    }
+    const cJSON *path = cJSON_GetObjectItemCaseSensitive(item, "path");
+    *asked = cJSON_GetObjectItemCaseSensitive(item, "request");
+    if (!cJSON_IsString(path)) {
+        problem_add(p, "/path", "needed: the path of an endpoint, such as %s",
+                    endpoints[0]->path);
+    } else if (!(e = endpoint_find(path->valuestring))) {
+        const char *near = route_near(path->valuestring);
+        const bool is_endpoint = near && endpoint_find(near);
+        problem_add(p, "/path", "no endpoint%s%s", is_endpoint ? "; did you mean " : "",
+                    is_endpoint ? near : "");
+    }
+    if (!*asked)
+        problem_add(p, "/request", "needed: what POST would send there");
+    if (cJSON_GetArraySize(item) > (path != NULL) + (*asked != NULL))
+        problem_add(p, "", "an item has the members \"path\" and \"request\" only");
+    return p->status ? NULL : e;
+}
+
+static evaluation *read_item(const slot *s, problem *p)
+{
+    const settings *set = s->batch->server->settings;
+    const json_limits limits = {.depth = (int)set->json_depth + 1,
+                                .values = (int)set->json_values + 2};
+    cJSON *document;
+    const cJSON *asked;
+    if (!json_read(s->bytes, s->size, &limits, &document, p))
+        return NULL;
+    const endpoint *e = read_members(document, &asked, p);
+    evaluation *a = NULL;
+    if (e) {
+        a = evaluation_read_item(e, asked, p);
+        problem_place(p, "/request");
+    }
+    cJSON_Delete(document);
+    return a;
+}
+
+/* Enters the flight; leads it when nobody else does. */
+static void solve(slot *s, const evaluation *a)
+{
+    batch *b = s->batch;
+    strbuf canonical = {0};
+    cache_key key;
+    entry *hit = NULL;
+    flight *lead = NULL;
+    cache_role turn = ROLE_NONE;
+    const size_t index = s->index;
+    stream_ref(&b->stream); /* the waiter's */
+    if (key_of_evaluation(a, &canonical, &key))
+        turn = cache_acquire(b->server->cache, &key, &s->waiter, &hit, &lead);
+    strbuf_clear(&canonical);
+    if (turn == ROLE_HIT || turn == ROLE_NONE) {
+        finish(s, hit);
+        stream_unref(&b->stream);
+        return;
+    }
+    pthread_mutex_lock(&b->lock);
+    /* Woken already, it may be sent, and the slot another item's. */
+    const bool waits = s->index == index && s->state == SLOT_BEGUN;
+    if (waits)
+        s->state = SLOT_WAITING;
+    /* Who ended the batch meanwhile did not see this one wait. */
+    const bool late = waits && b->ended && cache_release(b->server->cache, &s->waiter);
+    pthread_mutex_unlock(&b->lock);
+    if (late)
+        stream_unref(&b->stream);
+    if (turn == ROLE_LEADER)
+        solve_flight(b->server, a, &key, lead, 0);
+}
+
+static void work_item(slot *s)
+{
+    batch *b = s->batch;
+    s->waiter = (waiter){.on_done = wake};
+    cache_key_of_body(b->server->cache, NULL, s->bytes, s->size, &s->waiter.raw);
+    entry *hit = cache_find(b->server->cache, CACHE_RAW, &s->waiter.raw);
+    if (hit) {
+        finish(s, hit);
+        return;
+    }
+    problem why = {0};
+    evaluation *a = read_item(s, &why);
+    if (a)
+        solve(s, a);
+    else
+        finish(s, refusal_entry(&s->waiter.raw, &why));
+    problem_clear(&why);
+    evaluation_free(a);
+}
+
+/* ---- the workers of a batch ---- */
+
+static bool has_room(const batch *b)
+{
+    return !b->ended && b->begun < b->total && b->begun < b->sent + WINDOW &&
+           (b->bytes < WINDOW_BYTES || b->begun == b->sent);
+}
+
+/* The next item, or NULL: the runner has ended. */
+static slot *begin_item(batch *b, runner *r)
+{
+    slot *s = NULL;
+    pthread_mutex_lock(&b->lock);
+    if (has_room(b)) {
+        s = slot_of(b, b->begun);
+        *s = (slot){.batch = b, .index = b->begun++, .state = SLOT_BEGUN};
+        (void)batch_reader_next(&b->items, &s->bytes, &s->size);
+    } else {
+        r->running = false;
+    }
+    pthread_mutex_unlock(&b->lock);
+    return s;
+}
+
+static void run(job *j)
+{
+    runner *r = (runner *)(void *)j;
+    batch *b = r->batch;
+    const double until = clock_us() + TURN_US;
+    for (slot *s; (s = begin_item(b, r));) {
+        work_item(s);
+        if (clock_us() > until) {
+            thread_pool_queue_background(b->server->thread_pool, j);
+            return;
+        }
+    }
+    stream_unref(&b->stream);
+}
+
+/* Under the lock: a worker for each item that may begin. */
+static void start_runners(batch *b)
+{
+    size_t left = b->total - b->begun;
+    for (size_t i = 0; i < b->runner_count && has_room(b) && left > 0; i++) {
+        runner *r = &b->runners[i];
+        if (r->running)
+            continue;
+        r->running = true;
+        left--;
+        stream_ref(&b->stream);
+        thread_pool_queue_background(b->server->thread_pool, &r->job);
+    }
+}
+
+/* ---- the event thread ---- */
+
+static void write_line(size_t index, const entry *outcome, const char *given_up, strbuf *out)
+{
+    if (outcome && outcome->status == 200) {
+        strbuf_add(out, outcome->body, outcome->size);
+    } else {
+        /* A problem object whose first member is the index. */
+        problem why = {0};
+        strbuf body = {0};
+        problem_set(&why, 503, "%s", given_up ? given_up : "out of memory");
+        if (!outcome)
+            problem_write(&why, NULL, &body);
+        problem_clear(&why);
+        strbuf_format(out, "{\"index\":%zu,", index);
+        if (outcome)
+            strbuf_add(out, outcome->body + 1, outcome->size - 1);
+        else if (body.failed)
+            out->failed = true;
+        else
+            strbuf_add(out, body.data + 1, body.size - 1);
+        strbuf_clear(&body);
+    }
+    strbuf_add(out, "\n", 1);
+}
+
+/* Nobody wants what is under way. */
+static void end(stream *st)
+{
+    batch *b = (batch *)(void *)st;
+    size_t given_up = 0;
+    pthread_mutex_lock(&b->lock);
+    b->ended = true;
+    for (size_t i = 0; i < WINDOW; i++)
+        if (b->slots[i].state == SLOT_WAITING &&
+            cache_release(b->server->cache, &b->slots[i].waiter))
+            given_up++;
+    pthread_mutex_unlock(&b->lock);
+    while (given_up-- > 0)
+        stream_unref(st);
+}
+
+static stream_turn next(stream *st)
+{
+    batch *b = (batch *)(void *)st;
+    const char *given_up = atomic_load(&st->given_up);
+    if (b->ended || b->sent == b->total)
+        return STREAM_END;
+    if (given_up) {
+        end(st);
+        write_line(b->sent, NULL, given_up, &st->out);
+        return STREAM_PIECE;
+    }
+    pthread_mutex_lock(&b->lock);
+    for (slot *s = slot_of(b, b->sent); s->state == SLOT_DONE && st->out.size < LINES_SIZE;
+         s = slot_of(b, b->sent)) {
+        write_line(b->sent, s->outcome, NULL, &st->out);
+        b->bytes -= s->outcome ? s->outcome->size : 0;
+        entry_unref(s->outcome);
+        s->outcome = NULL;
+        s->state = SLOT_FREE;
+        b->sent++;
+    }
+    start_runners(b);
+    pthread_mutex_unlock(&b->lock);
+    if (st->out.size == 0)
+        return STREAM_WAIT;
+    st->wait_until_ms = clock_ms() + (int64_t)(b->server->settings->solve_timeout_s * 1000);
+    return STREAM_PIECE;
+}
+
+static void free_batch(stream *st)
+{
+    batch *b = (batch *)(void *)st;
+    for (size_t i = 0; i < WINDOW; i++)
+        entry_unref(b->slots[i].outcome);
+    pthread_mutex_destroy(&b->lock);
+    strbuf_clear(&b->body);
+    free(b);
+}
+
+static batch *batch_new(connection *p)
+{
+    batch *b = calloc(1, sizeof *b);
+    if (!b)
+        return NULL;
+    server *s = p->server;
+    b->stream.next = next;
+    b->stream.end = end;
+    b->stream.free = free_batch;
+    stream_init(&b->stream, p);
+    b->server = s;
+    /* The items point into it, for longer than the request may last. */
+    b->body = p->request.body;
+    p->request.body = (strbuf){0};
+    pthread_mutex_init(&b->lock, NULL);
+    const size_t workers = (size_t)thread_pool_count(s->thread_pool).workers;
+    b->runner_count = workers < RUNNERS ? workers : RUNNERS;
+    for (size_t i = 0; i < b->runner_count; i++)
+        b->runners[i] = (runner){.job.work = run, .batch = b};
+    return b;
+}
+
+enum MHD_Result batch_answer(connection *p)
+{
+    const int64_t most = p->server->settings->batch_items;
+    batch *b = batch_new(p);
+    problem why = {0};
+    if (!b)
+        return reply_entry(p, NULL, REPLY_HIT);
+    p->request.stream = &b->stream; /* ends with the request */
+    if (!batch_reader_open(&b->items, b->body.data ? b->body.data : "", b->body.size,
+                           p->request.is_lines, &b->total, &why))
+        return reply_problem(p, &why);
+    if (b->total > (size_t)most)
+        return reply_refusal(p, 413, "%zu items; a batch has at most %lld", b->total,
+                             (long long)most);
+    return reply_stream(p, &b->stream, "application/x-ndjson");
+}

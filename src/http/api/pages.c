@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "http/api/pages.h"
+
+#include <strum/status.h>
+
+#include <string.h>
+
+#include "http/api/assets.h"
+#include "http/transport/clock.h"
+#include "commit.h"
+#include "http/api/reply.h"
+#include "http/transport/server.h"
+
+/* So long the queue may be full before others are asked to send elsewhere. */
+#define FULL_MS 5000
+
+static enum MHD_Result say_status(connection *p, const char *status)
+{
+    strbuf body = {0};
+    json_writer json = {.out = &body};
+    json_open_object(&json);
+    json_put_string(&json, "status", status);
+    json_close_object(&json);
+    return reply_text(p, 200, "application/json", &body);
+}
+
+enum MHD_Result page_livez(connection *p)
+{
+    return say_status(p, "alive");
+}
+
+enum MHD_Result page_readyz(connection *p)
+{
+    server *s = p->server;
+    const int64_t full_since = thread_pool_count(s->thread_pool).full_since_ms;
+    if (s->draining)
+        return reply_refusal(p, 503, "shutting down");
+    if (full_since && clock_ms() - full_since > FULL_MS)
+        return reply_refusal(p, 503, "the queue has been full for over %d s", FULL_MS / 1000);
+    return say_status(p, "ready");
+}
+
+enum MHD_Result page_version(connection *p)
+{
+    strbuf body = {0};
+    json_writer json = {.out = &body};
+    json_open_object(&json);
+    json_put_string(&json, "name", "strumd");
+    json_put_string(&json, "version", STRUM_DAEMON_VERSION);
+    json_put_string(&json, "commit", COMMIT);
+    json_put_string(&json, "solver", strum_version());
+    json_put_string(&json, "libmicrohttpd", MHD_get_version());
+    json_close_object(&json);
+    return reply_text(p, 200, "application/json", &body);
+}
+
+enum MHD_Result page_metrics(connection *p)
+{
+    strbuf body = {0};
+    metrics_write(p->server, &body);
+    return reply_text(p, 200, "text/plain; version=0.0.4; charset=utf-8", &body);
+}
+
+enum MHD_Result page_asset(connection *p)
+{
+    for (const asset *a = assets; a->path; a++)
+        if (strcmp(a->path, p->request.url) == 0)
+            return reply_asset(p, a);
+    return reply_refusal(p, 404, "nothing is at %s%s", p->request.url,
+                         assets->path ? "" : "; this strumd was built without its pages");
+}

@@ -1,0 +1,414 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "http/api/reply.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "http/api/assets.h"
+#include "http/transport/clock.h"
+#include "http/transport/log.h"
+#include "http/transport/server.h"
+
+#define JSON_TYPE    "application/json"
+#define PROBLEM_TYPE "application/problem+json"
+
+static void header(struct MHD_Response *response, const char *name, const char *value)
+{
+    /* Out of memory: an answer without one of these is still right. */
+    (void)MHD_add_response_header(response, name, value);
+}
+
+/* ---- other origins' pages (CORS) ---- */
+
+static bool list_has(const char *list, const char *item)
+{
+    const size_t size = strlen(item);
+    for (const char *at = list; *at;) {
+        at += strspn(at, ", ");
+        const size_t span = strcspn(at, ", ");
+        if ((span == 1 && *at == '*') || (span == size && strncmp(at, item, size) == 0))
+            return true;
+        at += span;
+    }
+    return false;
+}
+
+static bool cors_add(const connection *p, struct MHD_Response *response)
+{
+    const char *origins = p->server->settings->cors_origins;
+    if (!*origins)
+        return false;
+    header(response, "Vary", "Origin");
+    if (!p->request.origin || !list_has(origins, p->request.origin))
+        return false;
+    header(response, "Access-Control-Allow-Origin", p->request.origin);
+    header(response, "Access-Control-Expose-Headers",
+           "ETag, Content-Location, Cache-Status, Server-Timing, X-Request-Id, traceparent, "
+           "Retry-After");
+    return true;
+}
+
+/* ---- the one way out ---- */
+
+static void log_request(const connection *p, int status, size_t size)
+{
+    const request *r = &p->request;
+    const int64_t which = p->server->settings->log_requests;
+    if (which == LOG_NONE || (which == LOG_ERRORS && (status < 500 || status == 501)) ||
+        (which == LOG_REFUSALS && status < 400))
+        return;
+    /* What went well may be too much to log it all. */
+    if (status < 400 && atomic_fetch_add_explicit(&p->server->logged, 1, memory_order_relaxed) %
+                                (uint64_t)p->server->settings->log_sample !=
+                            0)
+        return;
+    log_line line;
+    json_writer *json = log_open(&line, status < 500 ? "info" : "error", "request");
+    json_put_string(json, "id", r->id);
+    if (r->traceparent)
+        json_put_string(json, "traceparent", r->traceparent);
+    json_put_string(json, "path", r->url);
+    json_put_integer(json, "status", status);
+    json_put_integer(json, "bytes", (int64_t)size);
+    json_put_number(json, "ms", trunc(clock_us() - r->began_us) / 1000);
+    log_close(&line);
+}
+
+static void make_id(connection *p)
+{
+    if (!p->request.id[0])
+        snprintf(p->request.id, sizeof p->request.id, "%08x-%08x", p->server->id_prefix,
+                 atomic_fetch_add(&p->server->id_next, 1));
+}
+
+/* Sends `response` as it is. */
+static enum MHD_Result queue(connection *p, int status, struct MHD_Response *response,
+                             size_t size)
+{
+    const request *r = &p->request;
+    metrics_request(p->server->metrics, r->route.index, status, size, clock_us() - r->began_us);
+    connection_enter(p, CONNECTION_SENDING, p->server->settings->request_timeout_s);
+    return MHD_queue_response(p->mhd, (unsigned)status, response);
+}
+
+/* Completes `response` with what depends on the request, sends and drops it. */
+static enum MHD_Result finish(connection *p, int status, struct MHD_Response *response,
+                              size_t size)
+{
+    if (!response)
+        return queue(p, 503, p->server->no_memory, 0);
+    make_id(p);
+    header(response, "X-Request-Id", p->request.id);
+    if (p->request.traceparent)
+        header(response, "traceparent", p->request.traceparent);
+    cors_add(p, response);
+    if (status == 503) {
+        char seconds[24];
+        snprintf(seconds, sizeof seconds, "%d", (int)p->server->settings->retry_after_s);
+        header(response, "Retry-After", seconds);
+    }
+    if (p->request.close || p->server->draining)
+        header(response, "Connection", "close");
+    log_request(p, status, size);
+    const enum MHD_Result result = queue(p, status, response, size);
+    MHD_destroy_response(response);
+    return result;
+}
+
+static struct MHD_Response *take_text(strbuf *body)
+{
+    struct MHD_Response *response =
+        body->failed || !body->data
+            ? NULL
+            : MHD_create_response_from_buffer(body->size, body->data, MHD_RESPMEM_MUST_FREE);
+    if (response)
+        *body = (strbuf){0};
+    strbuf_clear(body);
+    return response;
+}
+
+/* ---- answers ---- */
+
+static void release_entry(void *e)
+{
+    entry_unref(e);
+}
+
+static void release_body(void *e)
+{
+    entry_release_body(e);
+}
+
+/* Faces: what is sent to POST, and to methods whose answers shared caches may keep. */
+enum { FACE_POST, FACE_SHARED };
+
+static int prebuilt_for(const request *r)
+{
+    return r->method == METHOD_POST ? FACE_POST : FACE_SHARED;
+}
+
+/* What an answer says of itself, whoever asks. */
+static void describe(int face, struct MHD_Response *response, const entry *e)
+{
+    char value[128];
+    if (e->transient) {
+        header(response, "Cache-Control", "no-store");
+        return;
+    }
+    snprintf(value, sizeof value, "\"%s\"", e->hex);
+    header(response, "ETag", value);
+    snprintf(value, sizeof value, "/v1/results/%s", e->hex);
+    header(response, "Content-Location", value);
+    /* By its key an answer is for ever. What POST says is not for store caches, some of which
+     * would take the URL alone for the key. */
+    header(response, "Cache-Control",
+           face == FACE_POST ? "no-cache" : "public, max-age=31536000, immutable");
+}
+
+static void prebuilt_drop(void *face)
+{
+    MHD_destroy_response(face);
+}
+
+void reply_prebuild(server *s, entry *e)
+{
+    e->prebuilt_drop = prebuilt_drop;
+    for (int i = 0; i < ENTRY_PREBUILT; i++) {
+        struct MHD_Response *face = MHD_create_response_from_buffer_with_free_callback_cls(
+            e->size, e->body, release_body, e);
+        if (!face)
+            return; /* hits are then made anew each time */
+        entry_hold_body(e);
+        header(face, "Content-Type", JSON_TYPE);
+        describe(i, face, e);
+        header(face, "Cache-Status", "strum; hit");
+        if (*s->settings->cors_origins)
+            header(face, "Vary", "Origin");
+        e->prebuilt[i] = face;
+    }
+}
+
+/* If-None-Match: a list of tags, weak ones too (RFC 9110 13.1.2), or "*". */
+static bool already_has(const char *list, const char *hex)
+{
+    if (!list)
+        return false;
+    for (const char *at = list; *at;) {
+        at += strspn(at, ", \t");
+        if (*at == '*')
+            return true;
+        if (strncmp(at, "W/", 2) == 0)
+            at += 2;
+        const size_t span = strcspn(at, ",");
+        if (span >= KEY_HEX_SIZE + 1 && at[0] == '"' && at[KEY_HEX_SIZE] == '"' &&
+            strncmp(at + 1, hex, KEY_HEX_SIZE - 1) == 0)
+            return true;
+        at += span;
+    }
+    return false;
+}
+
+static void timing(const connection *p, struct MHD_Response *response, const entry *e)
+{
+    char value[128];
+    snprintf(value, sizeof value, "read;dur=%.3f, queue;dur=%.3f, %s;dur=%.3f",
+             p->request.read_us / 1000, e->queue_us / 1000, e->from_store ? "store" : "solve",
+             e->solve_us / 1000);
+    header(response, "Server-Timing", value);
+}
+
+/* RFC 9211: the cache nearest to where answers are made comes first. */
+static void cache_status(struct MHD_Response *response, const entry *e, reply_source source)
+{
+    char value[64];
+    snprintf(value, sizeof value, "%sstrum; %s",
+             e->from_store && source != REPLY_HIT ? "strum-store; hit, " : "",
+             source == REPLY_HIT         ? "hit"
+             : source == REPLY_COLLAPSED ? "fwd=miss; collapsed"
+             : e->stored                 ? "fwd=miss; stored"
+                                         : "fwd=miss");
+    header(response, "Cache-Status", value);
+}
+
+enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
+{
+    const request *r = &p->request;
+    if (!e)
+        return queue(p, 503, p->server->no_memory, 0);
+    struct MHD_Response *face = source == REPLY_HIT ? e->prebuilt[prebuilt_for(r)] : NULL;
+    const bool plain = face && !r->if_none_match && !r->given_id && !r->traceparent &&
+                       !r->close && (!r->origin || !*p->server->settings->cors_origins) &&
+                       !p->server->draining && p->server->settings->log_requests != LOG_ALL;
+    if (plain) {
+        const enum MHD_Result result = queue(p, 200, face, e->size);
+        entry_unref(e);
+        return result;
+    }
+    const bool good = e->status == 200;
+    const bool has = good && !e->transient && already_has(r->if_none_match, e->hex);
+    struct MHD_Response *response =
+        has ? MHD_create_response_from_buffer(0, "", MHD_RESPMEM_PERSISTENT)
+            : MHD_create_response_from_buffer_with_free_callback_cls(e->size, e->body,
+                                                                     release_entry, e);
+    if (!response) {
+        entry_unref(e);
+        return queue(p, 503, p->server->no_memory, 0);
+    }
+    if (!has)
+        header(response, "Content-Type", good ? JSON_TYPE : PROBLEM_TYPE);
+    if (good) {
+        describe(prebuilt_for(r), response, e);
+        cache_status(response, e, source);
+        if (source != REPLY_HIT)
+            timing(p, response, e);
+    } else {
+        header(response, "Cache-Control", "no-store");
+    }
+    const int status = has ? 304 : e->status;
+    const size_t size = has ? 0 : e->size;
+    const enum MHD_Result result = finish(p, status, response, size);
+    if (has)
+        entry_unref(e); /* otherwise the response has the reference */
+    return result;
+}
+
+/* ---- the rest ---- */
+
+enum MHD_Result reply_text(connection *p, int status, const char *type, strbuf *body)
+{
+    const size_t size = body->size;
+    struct MHD_Response *response = take_text(body);
+    if (response) {
+        header(response, "Content-Type", type);
+        header(response, "Cache-Control", "no-store");
+    }
+    return finish(p, status, response, size);
+}
+
+enum MHD_Result reply_stream(connection *p, stream *s, const char *type)
+{
+    struct MHD_Response *response = stream_response(s);
+    if (response) {
+        header(response, "Content-Type", type);
+        header(response, "Cache-Control", "no-store");
+        header(response, "X-Accel-Buffering", "no"); /* nginx: pieces are passed on at once */
+    } else {
+        s->end(s);
+    }
+    return finish(p, 200, response, 0);
+}
+
+/* "gzip" among the codings, unless with a weight of 0 (RFC 9110 12.5.3). */
+static bool takes_gzip(connection *p)
+{
+    const char *list = MHD_lookup_connection_value(p->mhd, MHD_HEADER_KIND, "Accept-Encoding");
+    const char *at = list ? strstr(list, "gzip") : NULL;
+    if (!at)
+        return false;
+    at += strcspn(at, ",;");
+    if (*at != ';')
+        return true;
+    at += 1 + strspn(at + 1, " \t");
+    return strncmp(at, "q=", 2) != 0 || strtod(at + 2, NULL) > 0;
+}
+
+enum MHD_Result reply_asset(connection *p, const asset *a)
+{
+    const bool has = already_has(p->request.if_none_match, a->hex), packed = takes_gzip(p);
+    const unsigned char *bytes = packed ? a->gzip : a->bytes;
+    const size_t size = has ? 0 : (size_t)((packed ? a->gzip_end : a->bytes_end) - bytes);
+    struct MHD_Response *response =
+        MHD_create_response_from_buffer(size, (void *)(uintptr_t)bytes, MHD_RESPMEM_PERSISTENT);
+    if (response) {
+        char tag[80];
+        /* Weak: the compressed bytes are other bytes. */
+        snprintf(tag, sizeof tag, "W/\"%s\"", a->hex);
+        header(response, "ETag", tag);
+        header(response, "Cache-Control", "no-cache");
+        header(response, "Vary", "Accept-Encoding");
+        if (packed && !has)
+            header(response, "Content-Encoding", "gzip");
+        if (!has)
+            header(response, "Content-Type", a->type);
+        /* The page is what this daemon sent, asks nobody else, and is nobody's frame. */
+        header(response, "Content-Security-Policy",
+               "default-src 'none'; script-src 'self'; style-src 'self'; "
+               "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; "
+               "form-action 'none'; frame-ancestors 'none'");
+        header(response, "X-Content-Type-Options", "nosniff");
+        header(response, "Referrer-Policy", "no-referrer");
+    }
+    return finish(p, has ? 304 : 200, response, size);
+}
+
+enum MHD_Result reply_problem(connection *p, problem *why)
+{
+    strbuf body = {0};
+    const int status = why->status ? why->status : 500;
+    problem_write(why, NULL, &body);
+    problem_clear(why);
+    const size_t size = body.size;
+    struct MHD_Response *response = take_text(&body);
+    if (response) {
+        header(response, "Content-Type", PROBLEM_TYPE);
+        header(response, "Cache-Control", "no-store");
+        if (status == 401)
+            header(response, "WWW-Authenticate", "Bearer realm=\"strum\"");
+        if (status == 405) {
+            char allow[64];
+            method_list(p->request.route.methods, allow);
+            header(response, "Allow", allow);
+        }
+    }
+    return finish(p, status, response, size);
+}
+
+enum MHD_Result reply_refusal(connection *p, int status, const char *format, ...)
+{
+    char detail[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(detail, sizeof detail, format, arguments);
+    va_end(arguments);
+    problem why = {0};
+    problem_set(&why, status, "%s", detail);
+    return reply_problem(p, &why);
+}
+
+enum MHD_Result reply_options(connection *p, unsigned methods)
+{
+    char list[64];
+    method_list(methods, list);
+    struct MHD_Response *response =
+        MHD_create_response_from_buffer(0, "", MHD_RESPMEM_PERSISTENT);
+    if (response) {
+        header(response, "Allow", list);
+        if (methods & METHOD_QUERY)
+            header(response, "Accept-Query", JSON_TYPE);
+        if (p->request.accept_method && p->request.origin &&
+            list_has(p->server->settings->cors_origins, p->request.origin)) {
+            header(response, "Access-Control-Allow-Methods", list);
+            header(response, "Access-Control-Allow-Headers",
+                   "Accept, Authorization, Content-Type, If-None-Match, traceparent, "
+                   "X-Request-Id");
+            header(response, "Access-Control-Max-Age", "86400");
+        }
+    }
+    return finish(p, 204, response, 0);
+}
+
+struct MHD_Response *reply_no_memory(void)
+{
+    static const char body[] = "{\"type\":\"about:blank\",\"title\":\"Service Unavailable\","
+                               "\"status\":503,\"detail\":\"out of memory\"}";
+    struct MHD_Response *response = MHD_create_response_from_buffer(
+        sizeof body - 1, (void *)(uintptr_t)body, MHD_RESPMEM_PERSISTENT);
+    if (response) {
+        header(response, "Content-Type", PROBLEM_TYPE);
+        header(response, "Retry-After", "1");
+    }
+    return response;
+}

@@ -1,5 +1,0 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of a build without the dashboard. */
-#include "http/assets.h"
-
-const asset assets[] = {{.path = NULL}};

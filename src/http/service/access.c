@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "http/service/access.h"
+
+#include <errno.h>
+#include <openssl/crypto.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "cache/key.h"
+
+/* A shorter one could be guessed: these are 96 bits in base64. */
+#define TOKEN_MIN 16
+/* Every one of them is compared with at each request. */
+#define TOKENS_MAX 1024
+
+struct access_list {
+    size_t count;
+    cache_key digests[TOKENS_MAX];
+};
+
+static bool digest_of(const char *token, cache_key *digest)
+{
+    return key_of_parts(&(key_part){token, strlen(token)}, 1, digest);
+}
+
+static bool add_line(access_list *a, char *line, const char **why)
+{
+    line[strcspn(line, " \t\r\n")] = '\0';
+    if (*line == '\0' || *line == '#')
+        return true;
+    *why = strlen(line) < TOKEN_MIN                  ? "a token has at least 16 characters"
+           : a->count == TOKENS_MAX                  ? "more than 1024 tokens"
+           : !digest_of(line, &a->digests[a->count]) ? "out of memory"
+                                                     : NULL;
+    a->count++;
+    return *why == NULL;
+}
+
+access_list *access_read(const char *path, char fault[256])
+{
+    access_list *a = calloc(1, sizeof *a);
+    FILE *file = fopen(path, "re");
+    const char *why = !a ? "out of memory" : !file ? strerror(errno) : NULL;
+    char *line = NULL;
+    size_t room = 0, number = 0;
+    while (!why && (number++, getline(&line, &room, file) >= 0))
+        add_line(a, line, &why);
+    if (!why && ferror(file))
+        why = strerror(errno);
+    else if (!why && a->count == 0)
+        why = "no token is in it";
+    if (line)
+        OPENSSL_cleanse(line, room);
+    free(line);
+    if (file)
+        fclose(file);
+    if (!why)
+        return a;
+    snprintf(fault, 256, "token_file: %.150s:%zu: %s", path, number, why);
+    free(a);
+    return NULL;
+}
+
+void access_free(access_list *a)
+{
+    free(a);
+}
+
+bool access_allows(const access_list *a, const char *authorization)
+{
+    if (!a)
+        return true;
+    if (!authorization || strncasecmp(authorization, "Bearer ", 7) != 0)
+        return false;
+    cache_key given;
+    const char *token = authorization + 7 + strspn(authorization + 7, " ");
+    if (!digest_of(token, &given))
+        return false;
+    /* All of them, and each whole: the time says nothing of how near a guess was. */
+    bool found = false;
+    for (size_t i = 0; i < a->count; i++)
+        found |= CRYPTO_memcmp(&a->digests[i], &given, sizeof given) == 0;
+    return found;
+}

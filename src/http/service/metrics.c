@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "http/service/metrics.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+#include <strum/status.h>
+
+#include "http/transport/server.h"
+
+/* The statuses this daemon answers with; the last row counts any other. */
+static const int statuses[] = {200, 204, 304, 400, 401, 404, 405,
+                               413, 415, 422, 500, 501, 503, 0};
+#define STATUSES (sizeof statuses / sizeof *statuses)
+
+/* Latency buckets: upper bounds in microseconds; the last bucket takes the rest. */
+static const uint64_t bounds_us[] = {100,     250,     500,     1000,    2500,   5000,
+                                     10000,   25000,   50000,   100000,  250000, 500000,
+                                     1000000, 2500000, 5000000, 10000000};
+#define BOUNDS (sizeof bounds_us / sizeof *bounds_us)
+
+typedef struct route_metrics {
+    atomic_uint_fast64_t requests[STATUSES], took[BOUNDS + 1], took_us;
+} route_metrics;
+
+struct metrics {
+    atomic_uint_fast64_t bytes, solve_us, solve_steps, solve_failures;
+    route_metrics routes[];
+};
+
+metrics *metrics_new(void)
+{
+    return calloc(1, sizeof(metrics) + route_count() * sizeof(route_metrics));
+}
+
+void metrics_free(metrics *m)
+{
+    free(m);
+}
+
+static void add(atomic_uint_fast64_t *counter, uint64_t amount)
+{
+    atomic_fetch_add_explicit(counter, amount, memory_order_relaxed);
+}
+
+void metrics_request(metrics *m, size_t index, int status, size_t bytes, double us)
+{
+    route_metrics *r = &m->routes[index];
+    size_t i = 0, bucket = 0;
+    while (statuses[i] != status && statuses[i] != 0)
+        i++;
+    while (bucket < BOUNDS && us > (double)bounds_us[bucket])
+        bucket++;
+    add(&r->requests[i], 1);
+    add(&r->took[bucket], 1);
+    add(&r->took_us, (uint64_t)us);
+    add(&m->bytes, bytes);
+}
+
+void metrics_solve(metrics *m, int status, double us, int64_t steps)
+{
+    add(&m->solve_us, (uint64_t)us);
+    add(&m->solve_steps, (uint64_t)steps);
+    add(&m->solve_failures, status != 200);
+}
+
+static void value(strbuf *out, const char *name, const char *kind, const char *help,
+                  uint64_t number)
+{
+    strbuf_format(out, "# HELP strum_%s %s\n# TYPE strum_%s %s\nstrum_%s %" PRIu64 "\n", name,
+                  help, name, kind, name, number);
+}
+
+static void write_requests(const metrics *m, strbuf *out)
+{
+    strbuf_add_string(out, "# HELP strum_requests_total Answers sent, by route and status.\n"
+                           "# TYPE strum_requests_total counter\n");
+    for (size_t index = 0; index < route_count(); index++) {
+        for (size_t i = 0; i < STATUSES; i++) {
+            const uint64_t count = m->routes[index].requests[i];
+            char status[16] = "other";
+            if (statuses[i])
+                snprintf(status, sizeof status, "%d", statuses[i]);
+            if (count)
+                strbuf_format(out,
+                              "strum_requests_total{route=\"%s\",status=\"%s\"} %" PRIu64 "\n",
+                              route_path(index), status, count);
+        }
+    }
+}
+
+/* Whole microseconds as seconds: exact, whatever the locale. */
+static void write_seconds(uint64_t us, strbuf *out)
+{
+    strbuf_format(out, "%" PRIu64 ".%06" PRIu64 "\n", us / 1000000, us % 1000000);
+}
+
+static void write_latency(const metrics *m, strbuf *out)
+{
+    strbuf_add_string(out,
+                      "# HELP strum_request_seconds Time from a request's headers to the first "
+                      "byte of its answer.\n# TYPE strum_request_seconds histogram\n");
+    for (size_t index = 0; index < route_count(); index++) {
+        const route_metrics *r = &m->routes[index];
+        const char *path = route_path(index);
+        uint64_t below[BOUNDS + 1], total = 0;
+        for (size_t i = 0; i <= BOUNDS; i++)
+            below[i] = total += r->took[i];
+        if (!total)
+            continue;
+        for (size_t i = 0; i < BOUNDS; i++)
+            strbuf_format(out,
+                          "strum_request_seconds_bucket{route=\"%s\",le=\"%g\"} %" PRIu64 "\n",
+                          path, (double)bounds_us[i] * 1e-6, below[i]);
+        strbuf_format(out,
+                      "strum_request_seconds_bucket{route=\"%s\",le=\"+Inf\"} %" PRIu64 "\n",
+                      path, total);
+        strbuf_format(out, "strum_request_seconds_count{route=\"%s\"} %" PRIu64 "\n", path,
+                      total);
+        strbuf_format(out, "strum_request_seconds_sum{route=\"%s\"} ", path);
+        write_seconds(r->took_us, out);
+    }
+}
+
+static void write_store(store *s, strbuf *out)
+{
+    const store_counters c = store_count(s);
+    value(out, "store_hits_total", "counter", "Answers found in the shared store.", c.hits);
+    value(out, "store_misses_total", "counter", "Answers that the shared store did not have.",
+          c.misses);
+    value(out, "store_writes_total", "counter", "Answers put into the shared store.", c.writes);
+    value(out, "store_errors_total", "counter",
+          "Commands that the shared store did not answer in time, or refused.", c.errors);
+    value(out, "store_rejected_total", "counter",
+          "Values of the shared store that were damaged or forged, and not used.", c.rejected);
+    value(out, "store_away", "gauge", "1: the shared store has failed and is left alone.",
+          c.away);
+}
+
+void metrics_write(server *s, strbuf *out)
+{
+    const cache_counters c = cache_count(s->cache);
+    const thread_pool_counters w = thread_pool_count(s->thread_pool);
+    write_requests(s->metrics, out);
+    write_latency(s->metrics, out);
+    value(out, "response_bytes_total", "counter", "Bytes of answers' bodies.",
+          s->metrics->bytes);
+    value(out, "cache_hits_total", "counter", "Requests answered from memory.", c.hits);
+    value(out, "cache_misses_total", "counter", "Requests whose answer was not in memory.",
+          c.misses);
+    value(out, "cache_joins_total", "counter",
+          "Requests that waited for an equal one under way.", c.joins);
+    value(out, "solves_total", "counter", "Answers computed.", c.solves);
+    strbuf_add_string(out,
+                      "# HELP strum_solve_seconds_total Time spent computing answers.\n"
+                      "# TYPE strum_solve_seconds_total counter\nstrum_solve_seconds_total ");
+    write_seconds(s->metrics->solve_us, out);
+    value(out, "solve_steps_total", "counter",
+          "Steps of long computations: trial points of optimisations, forcing frequencies.",
+          s->metrics->solve_steps);
+    value(out, "solve_failures_total", "counter",
+          "Computations that ended without an answer: impossible, given up, or failed.",
+          s->metrics->solve_failures);
+    value(out, "cancels_total", "counter", "Answers given up: nobody waited any more.",
+          c.cancels);
+    value(out, "cache_evictions_total", "counter", "Answers dropped for room.", c.evictions);
+    value(out, "cache_entries", "gauge", "Answers stored.", c.entries);
+    value(out, "cache_bytes", "gauge", "Memory of stored answers, bookkeeping included.",
+          c.bytes);
+    value(out, "cache_limit_bytes", "gauge", "Most memory that stored answers may take.",
+          c.cap);
+    if (s->store)
+        write_store(s->store, out);
+    value(out, "flights", "gauge", "Answers being computed or waiting for it.", c.flights);
+    value(out, "workers", "gauge", "Worker threads.", (uint64_t)w.workers);
+    value(out, "workers_busy", "gauge", "Workers that solve.", w.working);
+    value(out, "queue_depth", "gauge", "Requests that wait for a worker.", w.queued);
+    value(out, "queue_limit", "gauge", "Requests that may wait for a worker.", w.depth);
+    value(out, "queue_refused_total", "counter", "Requests refused for a full queue.",
+          w.refused);
+    value(out, "requests_busy", "gauge", "Requests under way.",
+          connections_busy(s->connections));
+    strbuf_format(out,
+                  "# HELP strum_build_info The version.\n# TYPE strum_build_info gauge\n"
+                  "strum_build_info{version=\"%s\"} 1\n",
+                  strum_version());
+}

@@ -1,0 +1,434 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "http/service/settings.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "schema/schema.h"
+
+typedef enum setting_kind {
+    SETTING_TEXT,
+    SETTING_FLAG,
+    SETTING_COUNT,
+    SETTING_BYTES, /* a count that takes K, M or G (KiB, MiB, GiB) */
+    SETTING_NUMBER,
+    SETTING_CHOICE,
+} setting_kind;
+
+typedef struct setting {
+    const char *name;
+    setting_kind kind;
+    size_t offset;
+    double min, max;
+    const char *fallback, *help;
+} setting;
+
+static const char *const log_choices[] = {"none", "errors", "refusals", "all", NULL};
+
+#define AT(member) offsetof(settings, member)
+static const setting table[] = {
+    {"listen", SETTING_TEXT, AT(listen), 0, 0, "127.0.0.1:8080",
+     "address:port to listen on, [address]:port for IPv6; port 0 takes a free one and logs it; "
+     "a socket passed by systemd or a parent (LISTEN_FDS) comes before it"},
+    {"allow_non_loopback", SETTING_FLAG, AT(allow_non_loopback), 0, 0, "no",
+     "accept a listen address that other machines can reach though no token is asked for"},
+    {"token_file", SETTING_TEXT, AT(token_file), 0, 0, "",
+     "file of bearer tokens, one a line, one of which every request but probes must carry"},
+    {"event_threads", SETTING_COUNT, AT(event_threads), 1, 64, "1",
+     "threads that read requests and send answers"},
+    {"workers", SETTING_COUNT, AT(workers), 0, 1024, "0",
+     "threads that solve what takes longer than inline_us; 0: one for each core"},
+    {"queue_depth", SETTING_COUNT, AT(queue_depth), 0, 100000, "0",
+     "requests that may wait for a worker before others get 503; 0: 16 for each worker"},
+    {"inline_us", SETTING_NUMBER, AT(inline_us), 0, 1e6, "50",
+     "what is estimated to take less (microseconds) is solved without handing it to a worker"},
+    {"cache_bytes", SETTING_BYTES, AT(cache_bytes), 0, 1e12, "64M",
+     "most memory for stored answers, their bookkeeping included; 0 stores none"},
+    {"store", SETTING_TEXT, AT(store), 0, 0, "",
+     "address:port or unix:/path of a Redis server, as a second level of stored answers that "
+     "several daemons share; empty: none"},
+    {"store_timeout_ms", SETTING_NUMBER, AT(store_timeout_ms), 1, 60000, "20",
+     "most time a worker waits for the store, connecting included; then it solves"},
+    {"store_expiry_s", SETTING_COUNT, AT(store_expiry_s), 0, 1e9, "2592000",
+     "seconds that the store keeps an answer; 0: as long as it likes"},
+    {"store_secret_file", SETTING_TEXT, AT(store_secret_file), 0, 0, "",
+     "file of a secret that the daemons share, 16 characters or more, so that nobody else who "
+     "can write to the store can forge an answer"},
+    {"store_password_file", SETTING_TEXT, AT(store_password_file), 0, 0, "",
+     "file of the password that the store asks for; it is sent unencrypted"},
+    {"body_bytes", SETTING_BYTES, AT(body_bytes), 256, 64 << 20, "64K",
+     "largest request body; a larger one gets 413"},
+    {"json_depth", SETTING_COUNT, AT(json_depth), 1, 256, "16",
+     "deepest nesting of a request body"},
+    {"json_values", SETTING_COUNT, AT(json_values), 1, 1e7, "20000",
+     "most values in a request body"},
+    {"batches", SETTING_COUNT, AT(batches), 0, 100000, "16",
+     "most batches at once; others get 503"},
+    {"batch_items", SETTING_COUNT, AT(batch_items), 1, 1e7, "10000",
+     "most items of a batch; more get 413"},
+    {"batch_body_bytes", SETTING_BYTES, AT(batch_body_bytes), 256, 1 << 30, "8M",
+     "largest body of a batch; a larger one gets 413"},
+    {"connections", SETTING_COUNT, AT(connections), 1, 1000000, "4096",
+     "most connections at once; more wait unanswered"},
+    {"connection_memory_bytes", SETTING_BYTES, AT(connection_memory_bytes), 4096, 1 << 20,
+     "16K", "most memory for a request's line and headers; more gets 414 or 431"},
+    {"idle_timeout_s", SETTING_NUMBER, AT(idle_timeout_s), 0.1, 3600, "15",
+     "a connection without traffic is closed after so many seconds"},
+    {"request_timeout_s", SETTING_NUMBER, AT(request_timeout_s), 0.1, 3600, "10",
+     "most time for a request to arrive, and for its answer to be taken, however it drips"},
+    {"solve_timeout_s", SETTING_NUMBER, AT(solve_timeout_s), 0.1, 86400, "60",
+     "most time for an answer to be waited for and solved; then 503"},
+    {"drain_timeout_s", SETTING_NUMBER, AT(drain_timeout_s), 0, 3600, "30",
+     "most time to finish what is under way after SIGTERM or SIGINT"},
+    {"retry_after_s", SETTING_COUNT, AT(retry_after_s), 0, 3600, "1",
+     "seconds named in Retry-After with 503"},
+    {"cors_origins", SETTING_TEXT, AT(cors_origins), 0, 0, "",
+     "origins whose pages may read answers: a comma-separated list, or *; none by default"},
+    {"log_requests", SETTING_CHOICE, AT(log_requests), 0, LOG_ALL, "errors",
+     "requests to log: none, errors (5xx), refusals (4xx and 5xx) or all"},
+    {"log_sample", SETTING_COUNT, AT(log_sample), 1, 1e9, "1",
+     "of requests that went well, one in so many is logged; errors and refusals always are"},
+};
+#define ROWS (sizeof table / sizeof *table)
+
+/* ---- one value ---- */
+
+static bool read_flag(const char *value, bool *flag)
+{
+    static const char *const words[] = {"no", "false", "off", "0", "yes", "true", "on", "1"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (strcmp(value, words[i]) == 0) {
+            *flag = i >= 4;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool read_number(const char *value, bool suffix, double *number)
+{
+    char *end;
+    /* strtod would also take signs, blanks, hexadecimal, inf and nan. */
+    if ((!isdigit((unsigned char)*value) && *value != '.') || strpbrk(value, "xX"))
+        return false;
+    *number = strtod(value, &end);
+    if (suffix && *end) {
+        static const char units[] = "KMG";
+        const char *unit = strchr(units, toupper((unsigned char)*end));
+        if (!unit)
+            return false;
+        *number *= (double)(INT64_C(1024) << (10 * (unit - units)));
+        end++;
+        if (strcmp(end, "iB") == 0)
+            end += 2;
+    }
+    return *end == '\0' && isfinite(*number);
+}
+
+static void fault_of(const setting *row, const char *value, const char *source, strbuf *faults)
+{
+    switch (row->kind) {
+    case SETTING_FLAG:
+        strbuf_format(faults, "%s: %s must be yes or no, not \"%s\"\n", source, row->name,
+                      value);
+        break;
+    case SETTING_CHOICE:
+        strbuf_format(faults, "%s: %s must be one of", source, row->name);
+        for (size_t i = 0; log_choices[i]; i++)
+            strbuf_format(faults, "%s %s", i ? "," : "", log_choices[i]);
+        strbuf_format(faults, ", not \"%s\"\n", value);
+        break;
+    default:
+        strbuf_format(faults, "%s: %s must be %s from %.15g to %.15g%s, not \"%s\"\n", source,
+                      row->name, row->kind == SETTING_NUMBER ? "a number" : "a whole number",
+                      row->min, row->max,
+                      row->kind == SETTING_BYTES ? " (K, M or G may follow)" : "", value);
+    }
+}
+
+static void set(settings *s, const setting *row, const char *value, const char *source,
+                strbuf *faults)
+{
+    void *place = (char *)s + row->offset;
+    double number = 0;
+    bool good = true;
+    switch (row->kind) {
+    case SETTING_TEXT: {
+        char *copy = strdup(value);
+        if (!copy) {
+            strbuf_format(faults, "%s: out of memory\n", source);
+            return;
+        }
+        free(*(char **)place);
+        *(char **)place = copy;
+        break;
+    }
+    case SETTING_FLAG:
+        good = read_flag(value, place);
+        break;
+    case SETTING_CHOICE:
+        good = false;
+        for (size_t i = 0; log_choices[i]; i++) {
+            if (strcmp(value, log_choices[i]) == 0) {
+                *(int64_t *)place = (int64_t)i;
+                good = true;
+            }
+        }
+        break;
+    default:
+        good = read_number(value, row->kind == SETTING_BYTES, &number) && number >= row->min &&
+               number <= row->max;
+        if (row->kind == SETTING_NUMBER && good)
+            *(double *)place = number;
+        else if (good && (good = number == floor(number)))
+            *(int64_t *)place = (int64_t)number;
+    }
+    if (!good)
+        fault_of(row, value, source, faults);
+}
+
+/* ---- names ---- */
+
+/* The table's own spelling: lower case, "_" for "-". */
+static void plain_name(const char *name, size_t size, char plain[64])
+{
+    size_t i = 0;
+    for (; i < size && i < 63; i++)
+        plain[i] = name[i] == '-' ? '_' : (char)tolower((unsigned char)name[i]);
+    plain[i] = '\0';
+}
+
+static const setting *find(const char *plain, const char *source, const char *given,
+                           strbuf *faults)
+{
+    nearest near = {.wanted = plain};
+    for (size_t i = 0; i < ROWS; i++) {
+        if (strcmp(table[i].name, plain) == 0)
+            return &table[i];
+        nearest_try(&near, table[i].name);
+    }
+    strbuf_format(faults, "%s: unknown setting \"%s\"", source, given);
+    if (near.name)
+        strbuf_format(faults, "; did you mean %s?", near.name);
+    strbuf_add_string(faults, "\n");
+    return NULL;
+}
+
+/* ---- the sources ---- */
+
+static char *trim(char *line)
+{
+    while (isspace((unsigned char)*line))
+        line++;
+    char *end = line + strlen(line);
+    while (end > line && isspace((unsigned char)end[-1]))
+        end--;
+    *end = '\0';
+    return line;
+}
+
+static void read_file(settings *s, const char *path, strbuf *faults)
+{
+    FILE *file = fopen(path, "re");
+    if (!file) {
+        strbuf_format(faults, "%s: %s\n", path, strerror(errno));
+        return;
+    }
+    char *line = NULL;
+    size_t room = 0;
+    for (int number = 1; getline(&line, &room, file) >= 0; number++) {
+        char source[512], plain[64];
+        snprintf(source, sizeof source, "%s:%d", path, number);
+        char *key = trim(line);
+        if (*key == '\0' || *key == '#')
+            continue;
+        char *equals = strchr(key, '=');
+        if (!equals) {
+            strbuf_format(faults, "%s: expected \"key = value\", not \"%s\"\n", source, key);
+            continue;
+        }
+        *equals = '\0';
+        key = trim(key);
+        plain_name(key, strlen(key), plain);
+        const setting *row = find(plain, source, key, faults);
+        if (row)
+            set(s, row, trim(equals + 1), source, faults);
+    }
+    if (ferror(file))
+        strbuf_format(faults, "%s: %s\n", path, strerror(errno));
+    free(line);
+    fclose(file);
+}
+
+#define ENVIRONMENT_PREFIX "STRUM_"
+
+static void read_environment(settings *s, char *const environment[], strbuf *faults)
+{
+    const size_t prefix = sizeof ENVIRONMENT_PREFIX - 1;
+    for (char *const *variable = environment; *variable; variable++) {
+        const char *equals = strchr(*variable, '=');
+        if (strncmp(*variable, ENVIRONMENT_PREFIX, prefix) != 0 || !equals)
+            continue;
+        char plain[64], name[96];
+        snprintf(name, sizeof name, "%.*s", (int)(equals - *variable), *variable);
+        plain_name(name + prefix, strlen(name + prefix), plain);
+        /* Kubernetes sets STRUM_PORT... and STRUM_SERVICE_... for a service named strum. */
+        if (strncmp(plain, "port", 4) == 0 || strncmp(plain, "service_", 8) == 0 ||
+            strcmp(plain, "config") == 0)
+            continue;
+        const setting *row = find(plain, "environment", name, faults);
+        if (row)
+            set(s, row, equals + 1, name, faults);
+    }
+}
+
+static bool action_of(const char *flag, settings_action *action)
+{
+    static const struct {
+        const char *flag;
+        settings_action action;
+    } actions[] = {{"--help", SETTINGS_HELP},
+                   {"-h", SETTINGS_HELP},
+                   {"--version", SETTINGS_VERSION},
+                   {"--print-config", SETTINGS_PRINT},
+                   {"--check-config", SETTINGS_CHECK}};
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
+        if (strcmp(flag, actions[i].flag) == 0) {
+            *action = actions[i].action;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The value of flag i: after "=", or the next argument (*i moves on). NULL: there is none. */
+static const char *flag_value(int argc, char *const argv[], int *i, bool alone)
+{
+    const char *equals = strchr(argv[*i], '=');
+    if (equals)
+        return equals + 1;
+    if (alone)
+        return "yes";
+    return *i + 1 < argc ? argv[++*i] : NULL;
+}
+
+static bool is_config_flag(const char *flag)
+{
+    return strcmp(flag, "--config") == 0 || strncmp(flag, "--config=", 9) == 0;
+}
+
+static const char *config_path(int argc, char *const argv[], char *const environment[])
+{
+    const char *path = NULL;
+    for (char *const *variable = environment; *variable; variable++)
+        if (strncmp(*variable, ENVIRONMENT_PREFIX "CONFIG=", 13) == 0)
+            path = *variable + 13;
+    for (int i = 1; i < argc; i++)
+        if (is_config_flag(argv[i]))
+            path = flag_value(argc, argv, &i, false);
+    return path;
+}
+
+static void read_flags(settings *s, int argc, char *const argv[], settings_action *action,
+                       strbuf *faults)
+{
+    for (int i = 1; i < argc; i++) {
+        const char *flag = argv[i];
+        char name[64], plain[64];
+        if (action_of(flag, action))
+            continue;
+        if (strncmp(flag, "--", 2) != 0) {
+            strbuf_format(faults, "flags: unexpected \"%s\"\n", flag);
+            continue;
+        }
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(flag, "="), flag);
+        plain_name(name + 2, strlen(name + 2), plain);
+        const bool config = is_config_flag(flag);
+        const setting *row = config ? NULL : find(plain, "flags", name, faults);
+        if (!row && !config)
+            continue;
+        const char *value = flag_value(argc, argv, &i, row && row->kind == SETTING_FLAG);
+        if (!value)
+            strbuf_format(faults, "flags: %s needs a value\n", name);
+        else if (row)
+            set(s, row, value, name, faults);
+    }
+}
+
+bool settings_read(settings *s, int argc, char *const argv[], char *const environment[],
+                   settings_action *action, strbuf *faults)
+{
+    *s = (settings){0};
+    *action = SETTINGS_RUN;
+    for (size_t i = 0; i < ROWS; i++)
+        set(s, &table[i], table[i].fallback, "default", faults);
+    const char *path = config_path(argc, argv, environment);
+    if (path)
+        read_file(s, path, faults);
+    read_environment(s, environment, faults);
+    read_flags(s, argc, argv, action, faults);
+    return faults->size == 0 && !faults->failed;
+}
+
+void settings_clear(settings *s)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (table[i].kind == SETTING_TEXT)
+            free(*(char **)((char *)s + table[i].offset));
+    *s = (settings){0};
+}
+
+void settings_help(FILE *out)
+{
+    fputs(
+        "usage: strumd [--setting value]...\n\n"
+        "Answers questions about cables as JSON over HTTP.\n\n"
+        "Every setting can stand in a file (key = value), in the environment and among the\n"
+        "flags; the later of these wins. A setting workers is the key workers, the variable\n"
+        "STRUM_WORKERS and the flag --workers.\n\n"
+        "  --config FILE    settings from a file (also STRUM_CONFIG); # begins a comment line\n"
+        "  --check-config   name every fault in the settings and exit\n"
+        "  --print-config   print the settings in force, as a file, and exit\n"
+        "  --version        print the version and exit\n"
+        "  --help           print this and exit\n\n"
+        "settings:\n",
+        out);
+    for (size_t i = 0; i < ROWS; i++) {
+        char flag[64];
+        snprintf(flag, sizeof flag, "%s", table[i].name);
+        for (char *c = flag; *c; c++)
+            *c = *c == '_' ? '-' : *c;
+        fprintf(out, "  --%s (%s", flag, *table[i].fallback ? table[i].fallback : "empty");
+        if (table[i].min < table[i].max && table[i].kind != SETTING_CHOICE)
+            fprintf(out, "; %.15g to %.15g", table[i].min, table[i].max);
+        fprintf(out, ")\n      %s\n", table[i].help);
+    }
+}
+
+void settings_print(const settings *s, FILE *out)
+{
+    for (size_t i = 0; i < ROWS; i++) {
+        const void *place = (const char *)s + table[i].offset;
+        fprintf(out, "%s = ", table[i].name);
+        switch (table[i].kind) {
+        case SETTING_TEXT:
+            fprintf(out, "%s\n", *(char *const *)place);
+            break;
+        case SETTING_FLAG:
+            fprintf(out, "%s\n", *(const bool *)place ? "yes" : "no");
+            break;
+        case SETTING_NUMBER:
+            fprintf(out, "%.17g\n", *(const double *)place);
+            break;
+        case SETTING_CHOICE:
+            fprintf(out, "%s\n", log_choices[*(const int64_t *)place]);
+            break;
+        default:
+            fprintf(out, "%" PRId64 "\n", *(const int64_t *)place);
+        }
+    }
+}

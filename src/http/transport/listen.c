@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "http/transport/listen.h"
+
+#include <errno.h>
+#include <netdb.h>      /* getaddrinfo */
+#include <netinet/in.h> /* in6addr_loopback */
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+/* A burst of new connections waits here; the kernel's own limit cuts it. */
+#define LISTEN_BACKLOG 1024
+
+bool listen_split(const char *where, char host[256], char port[16])
+{
+    const char *colon = strrchr(where, ':');
+    if (!colon || colon == where || !colon[1] || strlen(colon + 1) > 5 ||
+        strspn(colon + 1, "0123456789") != strlen(colon + 1))
+        return false;
+    size_t size = (size_t)(colon - where);
+    const bool bracketed = where[0] == '[' && colon[-1] == ']';
+    if (bracketed) {
+        where++;
+        size -= 2;
+    }
+    if (size == 0 || size > 255 || (!bracketed && memchr(where, ':', size)))
+        return false;
+    snprintf(host, 256, "%.*s", (int)size, where);
+    snprintf(port, 16, "%s", colon + 1);
+    return true;
+}
+
+static bool is_loopback(const struct sockaddr *address)
+{
+    if (address->sa_family == AF_INET)
+        return ntohl(((const struct sockaddr_in *)(const void *)address)->sin_addr.s_addr) >>
+                   24 ==
+               127;
+    return address->sa_family == AF_INET6 &&
+           IN6_IS_ADDR_LOOPBACK(
+               &((const struct sockaddr_in6 *)(const void *)address)->sin6_addr);
+}
+
+static void name_of(int fd, listen_at *at)
+{
+    struct sockaddr_storage address = {0};
+    socklen_t size = sizeof address;
+    char host[64] = "?", port[16] = "0";
+    if (getsockname(fd, (struct sockaddr *)&address, &size) == 0)
+        getnameinfo((struct sockaddr *)&address, size, host, sizeof host, port, sizeof port,
+                    NI_NUMERICHOST | NI_NUMERICSERV);
+    sscanf(port, "%d", &at->port);
+    snprintf(at->name, sizeof at->name, address.ss_family == AF_INET6 ? "[%s]:%s" : "%s:%s",
+             host, port);
+}
+
+static int bind_first(const struct addrinfo *address)
+{
+    const int fd = socket(address->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (fd < 0)
+        return -1;
+    const int on = 1;
+    /* A restart must not wait for old connections to time out. */
+    setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    if (address->ai_family == AF_INET6)
+        setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
+    if (bind(fd, address->ai_addr, address->ai_addrlen) == 0 && listen(fd, LISTEN_BACKLOG) == 0)
+        return fd;
+    const int why = errno;
+    close(fd);
+    errno = why;
+    return -1;
+}
+
+/* The first of the descriptors that sd_listen_fds(3) tells of. */
+#define PASSED_FD 3
+
+/* Whether a socket is passed; *number of them. */
+static bool is_passed(long *number)
+{
+    const char *pid = getenv("LISTEN_PID"), *count = getenv("LISTEN_FDS");
+    *number = count ? strtol(count, NULL, 10) : 0;
+    return pid && strtol(pid, NULL, 10) == (long)getpid() && *number > 0;
+}
+
+static bool take_passed(long number, bool allow_any, listen_at *at, char fault[256])
+{
+    struct sockaddr_storage address = {0};
+    socklen_t size = sizeof address, flag_size = sizeof(int);
+    int accepts = 0;
+    const int flags = fcntl(PASSED_FD, F_GETFL);
+    const bool good =
+        number == 1 && flags >= 0 &&
+        getsockopt(PASSED_FD, SOL_SOCKET, SO_ACCEPTCONN, &accepts, &flag_size) == 0 &&
+        accepts && getsockname(PASSED_FD, (struct sockaddr *)&address, &size) == 0 &&
+        (address.ss_family == AF_INET || address.ss_family == AF_INET6);
+    if (!good) {
+        snprintf(fault, 256, "LISTEN_FDS: one listening TCP socket is taken, as descriptor %d",
+                 PASSED_FD);
+    } else if (!allow_any && !is_loopback((struct sockaddr *)&address)) {
+        snprintf(fault, 256,
+                 "LISTEN_FDS: the socket can be reached from other machines; set "
+                 "token_file, or allow_non_loopback if anybody may ask");
+    } else if (fcntl(PASSED_FD, F_SETFL, flags | O_NONBLOCK) < 0 ||
+               fcntl(PASSED_FD, F_SETFD, FD_CLOEXEC) < 0) {
+        snprintf(fault, 256, "LISTEN_FDS: %s", strerror(errno));
+    } else {
+        *at = (listen_at){.fd = PASSED_FD, .inherited = true};
+        name_of(at->fd, at);
+    }
+    return at->fd >= 0;
+}
+
+bool listen_open(const char *where, bool allow_any, listen_at *at, char fault[256])
+{
+    char host[256], port[16];
+    long passed;
+    *at = (listen_at){.fd = -1};
+    if (is_passed(&passed))
+        return take_passed(passed, allow_any, at, fault);
+    if (!listen_split(where, host, port)) {
+        snprintf(fault, 256, "listen must be address:port or [address]:port, not \"%.100s\"",
+                 where);
+        return false;
+    }
+    struct addrinfo hints = {.ai_socktype = SOCK_STREAM, .ai_flags = AI_PASSIVE};
+    struct addrinfo *found = NULL;
+    const int error = getaddrinfo(host, port, &hints, &found);
+    if (error) {
+        snprintf(fault, 256, "listen: %.100s: %s", host, gai_strerror(error));
+        return false;
+    }
+    if (!allow_any && !is_loopback(found->ai_addr)) {
+        snprintf(fault, 256,
+                 "listen: %.100s can be reached from other machines; set token_file, or "
+                 "allow_non_loopback if anybody may ask",
+                 where);
+    } else {
+        at->fd = bind_first(found);
+        if (at->fd < 0)
+            snprintf(fault, 256, "listen: %.100s: %s", where, strerror(errno));
+        else
+            name_of(at->fd, at);
+    }
+    freeaddrinfo(found);
+    return at->fd >= 0;
+}

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A request from a query string: the pairs become the JSON object that the same request would
+ * be as a body, and are read as such. What is not what its field wants stays a string, so that
+ * the reader reports it with its pointer.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "schema/parts.h"
+
+static cJSON *text_value(const char *value, size_t size)
+{
+    char copy[256];
+    if (size < sizeof copy) {
+        memcpy(copy, value, size);
+        copy[size] = '\0';
+        return cJSON_CreateString(copy);
+    }
+    char *long_copy = strndup(value, size);
+    cJSON *item = long_copy != NULL ? cJSON_CreateString(long_copy) : NULL;
+    free(long_copy);
+    return item;
+}
+
+/* A number by JSON's grammar: no leading +, no spaces. */
+static cJSON *number_value(const char *value, size_t size)
+{
+    char copy[JSON_NUMBER_CHARACTERS + 1];
+    if (size >= sizeof copy || json_number_end(value, value + size) != value + size)
+        return text_value(value, size);
+    memcpy(copy, value, size);
+    copy[size] = '\0';
+    return cJSON_CreateNumber(strtod(copy, NULL));
+}
+
+static cJSON *list_value(const char *value)
+{
+    cJSON *list = cJSON_CreateArray();
+    for (const char *at = value; list != NULL;) {
+        const size_t size = strcspn(at, ",");
+        cJSON *item = number_value(at, size);
+        if (item == NULL || !cJSON_AddItemToArray(list, item)) {
+            cJSON_Delete(item);
+            cJSON_Delete(list);
+            return NULL;
+        }
+        if (at[size] == '\0')
+            break;
+        at += size + 1;
+    }
+    return list;
+}
+
+static cJSON *field_value(const field *f, const char *value)
+{
+    switch (f->kind) {
+    case FIELD_NUMBER:
+    case FIELD_INTEGER:
+        return number_value(value, strlen(value));
+    case FIELD_NUMBERS:
+    case FIELD_COMPLEXES:
+        return list_value(value);
+    case FIELD_FLAG:
+        if (strcmp(value, "true") == 0 || strcmp(value, "false") == 0)
+            return cJSON_CreateBool(value[0] == 't');
+        break;
+    default:
+        break;
+    }
+    return text_value(value, strlen(value));
+}
+
+/* True when the pair may stand in a query string. */
+static bool pair_allowed(const schema *s, const query_pair *pair, field_set *seen, problem *p)
+{
+    const int row = schema_row(s, pair->name, 0);
+    if (row < 0)
+        return true; /* the reader names it, with what is near */
+    const json_place place = {.name = pair->name};
+    const field_kind kind = s->fields[row].kind;
+    if (*seen & row_bit(row)) {
+        json_fault(p, &place, "given more than once");
+        return false;
+    }
+    *seen |= row_bit(row);
+    if (kind == FIELD_OBJECT || kind == FIELD_OBJECTS || kind == FIELD_VARIANTS) {
+        json_fault(p, &place, "cannot be given in a query string: send JSON by POST");
+        return false;
+    }
+    return true;
+}
+
+void *schema_read_query(const schema *s, const query_pair *pairs, size_t count,
+                        schema_arena **arena, problem *p)
+{
+    *arena = NULL;
+    cJSON *object = cJSON_CreateObject();
+    bool good = object != NULL;
+    field_set seen = 0;
+    for (size_t i = 0; i < count && good; i++) {
+        if (!pair_allowed(s, &pairs[i], &seen, p))
+            continue;
+        const int row = schema_row(s, pairs[i].name, 0);
+        cJSON *item =
+            row >= 0 ? field_value(&s->fields[row], pairs[i].value) : cJSON_CreateNull();
+        good = item != NULL && cJSON_AddItemToObject(object, pairs[i].name, item);
+        if (!good)
+            cJSON_Delete(item);
+    }
+    if (!good)
+        problem_out_of_memory(p);
+    void *request = NULL;
+    if (good)
+        request = schema_read(s, object, false, arena, p);
+    cJSON_Delete(object);
+    return request;
+}

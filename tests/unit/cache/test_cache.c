@@ -1,0 +1,585 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stored answers, least recently used first out, and single flight. */
+#include <malloc.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cache/slot.h"
+#include "http/api/reply.h"
+#include "http/transport/server.h"
+
+#include "check.h"
+
+/* ---- allocations that fail: the linker leads them here (meson.build) ---- */
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *old, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+char *__real_strdup(const char *string);
+char *__real_strndup(const char *string, size_t size);
+char *__wrap_strdup(const char *string);
+char *__wrap_strndup(const char *string, size_t size);
+
+static _Atomic long allocations_left = -1; /* -1: all succeed */
+
+static bool allocation_fails(void)
+{
+    if (allocations_left < 0)
+        return false;
+    return allocations_left == 0 || allocations_left-- == 0;
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return allocation_fails() ? NULL : __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return allocation_fails() ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_realloc(void *old, size_t size)
+{
+    return allocation_fails() ? NULL : __real_realloc(old, size);
+}
+
+char *__wrap_strdup(const char *string)
+{
+    return allocation_fails() ? NULL : __real_strdup(string);
+}
+
+char *__wrap_strndup(const char *string, size_t size)
+{
+    return allocation_fails() ? NULL : __real_strndup(string, size);
+}
+
+/* ---- helpers ---- */
+
+static cache_key key_number(uint64_t number)
+{
+    cache_key key;
+    assert_true(key_of_parts(&(key_part){&number, sizeof number}, 1, &key));
+    return key;
+}
+
+static entry *entry_of_size(const cache_key *key, int status, size_t size)
+{
+    strbuf body = {0};
+    char *fill = malloc(size);
+    assert_non_null(fill);
+    memset(fill, 'x', size);
+    strbuf_add(&body, fill, size);
+    free(fill);
+    entry *e = entry_new(key, status, &body);
+    assert_non_null(e);
+    return e;
+}
+
+/* One who waits, and what came. */
+typedef struct listener {
+    waiter waiter;
+    atomic_int woken;
+    entry *came;
+} listener;
+
+static void note(waiter *w, entry *outcome)
+{
+    listener *l = (listener *)(void *)w;
+    l->came = outcome;
+    atomic_fetch_add(&l->woken, 1);
+}
+
+static listener listener_new(uint64_t raw)
+{
+    return (listener){.waiter = {.raw = key_number(raw), .on_done = note}};
+}
+
+/* Asks for key `number` with a body of its own, as http does, and solves a miss at once. */
+static bool ask(cache *c, uint64_t number, size_t size)
+{
+    const cache_key key = key_number(number);
+    listener l = listener_new(number + 1000000);
+    entry *hit = NULL;
+    flight *lead = NULL;
+    const cache_role turn = cache_acquire(c, &key, &l.waiter, &hit, &lead);
+    if (turn == ROLE_HIT) {
+        assert_int_equal(hit->size, size);
+        entry_unref(hit);
+        return true;
+    }
+    assert_int_equal(turn, ROLE_LEADER);
+    entry *e = entry_of_size(&key, 200, size);
+    cache_complete(c, lead, e);
+    assert_int_equal(l.woken, 1);
+    assert_ptr_equal(l.came, e);
+    entry_unref(l.came);
+    entry_unref(e);
+    return false;
+}
+
+static bool holds(cache *c, uint64_t number)
+{
+    const cache_key key = key_number(number);
+    entry *e = cache_find(c, CACHE_CANONICAL, &key);
+    entry_unref(e);
+    return e != NULL;
+}
+
+/* ---- keys ---- */
+
+static void keys_are_sha_256(void **state)
+{
+    (void)state;
+    /* A part is preceded by its length in 8 bytes: printf '\3\0\0\0\0\0\0\0abc' | sha256sum */
+    cache_key key;
+    char hex[KEY_HEX_SIZE];
+    assert_true(key_of_parts(&(key_part){"abc", 3}, 1, &key));
+    key_hex(&key, hex);
+    assert_string_equal(hex,
+                        "ce91dc5eec0139adf091900d225971d6ad246a845bad791b5693a9d0d55dd391");
+    cache_key back;
+    assert_true(key_parse(hex, &back));
+    assert_memory_equal(&key, &back, sizeof key);
+}
+
+static void parts_do_not_run_together(void **state)
+{
+    (void)state;
+    cache_key a, b;
+    assert_true(key_of_parts((const key_part[]){{"ab", 2}, {"c", 1}}, 2, &a));
+    assert_true(key_of_parts((const key_part[]){{"a", 1}, {"bc", 2}}, 2, &b));
+    assert_memory_not_equal(&a, &b, sizeof a);
+}
+
+static void malformed_keys_are_refused(void **state)
+{
+    (void)state;
+    cache_key key;
+    char hex[KEY_HEX_SIZE + 1];
+    memset(hex, 'a', sizeof hex);
+    hex[64] = '\0';
+    assert_true(key_parse(hex, &key));
+    hex[10] = 'A';
+    assert_false(key_parse(hex, &key));
+    hex[10] = 'g';
+    assert_false(key_parse(hex, &key));
+    hex[10] = 'a';
+    hex[63] = '\0';
+    assert_false(key_parse(hex, &key));
+    memset(hex, 'a', sizeof hex);
+    hex[65] = '\0';
+    assert_false(key_parse(hex, &key));
+    assert_false(key_parse("", &key));
+}
+
+/* ---- least recently used first out ---- */
+
+static void the_least_recently_used_goes_first(void **state)
+{
+    (void)state;
+    const size_t cost = 1000 + CACHE_ENTRY_OVERHEAD;
+    cache *c = cache_new(3 * cost);
+    assert_non_null(c);
+    const size_t tables = cache_count(c).bytes;
+    cache_free(c);
+    c = cache_new(3 * cost + tables);
+    assert_non_null(c);
+    for (uint64_t i = 1; i <= 3; i++)
+        assert_false(ask(c, i, 1000));
+    assert_true(ask(c, 1, 1000)); /* 2 is now the oldest */
+    assert_false(ask(c, 4, 1000));
+    assert_true(holds(c, 1));
+    assert_false(holds(c, 2));
+    assert_true(holds(c, 3));
+    assert_true(holds(c, 4));
+    assert_int_equal(cache_count(c).evictions, 1);
+    cache_free(c);
+}
+
+static void what_is_larger_than_the_cache_is_answered_and_not_kept(void **state)
+{
+    (void)state;
+    cache *c = cache_new(100000);
+    ask(c, 1, 1000);
+    assert_false(ask(c, 2, 100000));
+    assert_false(ask(c, 2, 100000));
+    assert_true(holds(c, 1)); /* it drove nothing out */
+    assert_int_equal(cache_count(c).evictions, 0);
+    cache_free(c);
+    c = cache_new(0);
+    assert_false(ask(c, 1, 10));
+    assert_false(ask(c, 1, 10));
+    assert_int_equal(cache_count(c).entries, 0);
+    cache_free(c);
+}
+
+/* Against a model: an array of keys, the most recently used first. */
+#define MODEL_MAX 4096
+typedef struct model {
+    struct {
+        uint64_t number;
+        size_t cost;
+    } items[MODEL_MAX];
+    size_t count, bytes, cap;
+} model;
+
+static bool model_ask(model *m, uint64_t number, size_t cost)
+{
+    size_t at = 0;
+    while (at < m->count && m->items[at].number != number)
+        at++;
+    const bool hit = at < m->count;
+    if (!hit) {
+        if (cost > m->cap)
+            return false;
+        while (m->count && m->bytes + cost > m->cap)
+            m->bytes -= m->items[--m->count].cost;
+        if (m->bytes + cost > m->cap)
+            return false;
+        at = m->count++;
+        m->bytes += cost;
+    }
+    memmove(&m->items[1], &m->items[0], at * sizeof *m->items);
+    m->items[0].number = number;
+    m->items[0].cost = cost;
+    return hit;
+}
+
+static uint64_t random_next(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return *state >> 33;
+}
+
+static void random_use_follows_the_model(void **state)
+{
+    (void)state;
+    uint64_t random = 2026;
+    for (int round = 0; round < 20; round++) {
+        cache *c = cache_new(20000 + random_next(&random) % 200000);
+        model *m = calloc(1, sizeof *m);
+        assert_non_null(c);
+        assert_non_null(m);
+        m->cap = cache_count(c).cap;
+        m->bytes = cache_count(c).bytes; /* its tables */
+        for (int i = 0; i < 2000; i++) {
+            const uint64_t number = random_next(&random) % 100;
+            /* The size is a function of the key, as an answer is of its question. */
+            const size_t size = (size_t)(number * number % 97) * 100 + 1;
+            const bool hit = model_ask(m, number, size + CACHE_ENTRY_OVERHEAD);
+            assert_int_equal(ask(c, number, size), hit);
+            const cache_counters count = cache_count(c);
+            assert_int_equal(count.bytes, m->bytes);
+            assert_int_equal(count.entries, m->count);
+            assert_true(count.bytes <= count.cap);
+        }
+        cache_free(c);
+        free(m);
+    }
+}
+
+/* ---- both levels ---- */
+
+static void an_answer_is_found_by_the_bytes_of_its_last_bodies(void **state)
+{
+    (void)state;
+    cache *c = cache_new(1000000);
+    const cache_key key = key_number(1);
+    for (uint64_t spelling = 0; spelling <= RAW_SLOTS; spelling++) {
+        listener l = listener_new(100 + spelling);
+        entry *hit = NULL, *by_raw = NULL;
+        flight *lead = NULL;
+        assert_null(cache_find(c, CACHE_RAW, &l.waiter.raw));
+        if (cache_acquire(c, &key, &l.waiter, &hit, &lead) == ROLE_LEADER) {
+            assert_int_equal(spelling, 0);
+            hit = entry_of_size(&key, 200, 10);
+            cache_complete(c, lead, hit);
+            entry_unref(l.came);
+        }
+        by_raw = cache_find(c, CACHE_RAW, &l.waiter.raw);
+        assert_ptr_equal(by_raw, hit);
+        entry_unref(by_raw);
+        entry_unref(hit);
+    }
+    /* One more than fits: the first spelling was forgotten, the answer was not. */
+    const cache_key first = key_number(100);
+    assert_null(cache_find(c, CACHE_RAW, &first));
+    assert_true(holds(c, 1));
+    /* A raw key is no public key. */
+    const cache_key last = key_number(100 + RAW_SLOTS);
+    assert_null(cache_find(c, CACHE_CANONICAL, &last));
+    assert_int_equal(cache_count(c).entries, 1);
+    cache_free(c);
+}
+
+static void a_body_has_a_key_of_its_own(void **state)
+{
+    (void)state;
+    cache *c = cache_new(1000000), *other = cache_new(1000000);
+    const int owners[2] = {0};
+    cache_key keys[6];
+    cache_key_of_body(c, &owners[0], "abc", 3, &keys[0]);
+    cache_key_of_body(c, &owners[1], "abc", 3, &keys[1]);
+    cache_key_of_body(c, &owners[0], "abd", 3, &keys[2]);
+    cache_key_of_body(c, &owners[0], "abc", 2, &keys[3]);
+    cache_key_of_body(c, NULL, NULL, 0, &keys[4]);
+    /* another cache has another secret: what collides in one is nothing to the other */
+    cache_key_of_body(other, &owners[0], "abc", 3, &keys[5]);
+    for (size_t i = 0; i < 6; i++)
+        for (size_t j = 0; j < i; j++)
+            assert_memory_not_equal(&keys[i], &keys[j], sizeof keys[i]);
+    cache_key again;
+    cache_key_of_body(c, &owners[0], "abcd", 3, &again);
+    assert_memory_equal(&again, &keys[0], sizeof again);
+    cache_free(c);
+    cache_free(other);
+}
+
+/* ---- single flight ---- */
+
+static void refusals_reach_all_and_are_not_kept(void **state)
+{
+    (void)state;
+    cache *c = cache_new(1000000);
+    const cache_key key = key_number(7);
+    listener first = listener_new(1), second = listener_new(2);
+    entry *hit = NULL;
+    flight *lead = NULL, *none = NULL;
+    assert_int_equal(cache_acquire(c, &key, &first.waiter, &hit, &lead), ROLE_LEADER);
+    assert_int_equal(cache_acquire(c, &key, &second.waiter, &hit, &none), ROLE_FOLLOWER);
+    entry *refusal = entry_of_size(&key, 422, 50);
+    cache_complete(c, lead, refusal);
+    assert_ptr_equal(first.came, refusal);
+    assert_ptr_equal(second.came, refusal);
+    entry_unref(first.came);
+    entry_unref(second.came);
+    entry_unref(refusal);
+    assert_false(holds(c, 7));
+    assert_null(cache_find(c, CACHE_RAW, &first.waiter.raw));
+    cache_free(c);
+}
+
+static void without_memory_all_are_woken_with_nothing(void **state)
+{
+    (void)state;
+    cache *c = cache_new(1000000);
+    const cache_key key = key_number(7);
+    listener first = listener_new(1), second = listener_new(2);
+    entry *hit = NULL;
+    flight *lead = NULL, *none = NULL;
+    cache_acquire(c, &key, &first.waiter, &hit, &lead);
+    cache_acquire(c, &key, &second.waiter, &hit, &none);
+    cache_complete(c, lead, NULL);
+    assert_int_equal(first.woken, 1);
+    assert_int_equal(second.woken, 1);
+    assert_null(first.came);
+    assert_null(second.came);
+    cache_free(c);
+}
+
+static void the_last_to_give_up_cancels(void **state)
+{
+    (void)state;
+    cache *c = cache_new(1000000);
+    const cache_key key = key_number(7);
+    listener first = listener_new(1), second = listener_new(2), third = listener_new(3);
+    entry *hit = NULL;
+    flight *lead = NULL, *again = NULL;
+    assert_int_equal(cache_acquire(c, &key, &first.waiter, &hit, &lead), ROLE_LEADER);
+    assert_int_equal(cache_acquire(c, &key, &second.waiter, &hit, &again), ROLE_FOLLOWER);
+    assert_true(cache_release(c, &first.waiter));
+    assert_false(*flight_cancel(lead));
+    assert_true(cache_release(c, &second.waiter));
+    assert_true(*flight_cancel(lead));
+    assert_false(cache_release(c, &second.waiter)); /* already */
+    /* Nobody joins what was given up: a new flight begins beside it. */
+    assert_int_equal(cache_acquire(c, &key, &third.waiter, &hit, &again), ROLE_LEADER);
+    entry *late = entry_of_size(&key, 503, 10), *good = entry_of_size(&key, 200, 10);
+    cache_complete(c, lead, late);
+    assert_int_equal(first.woken + second.woken + third.woken, 0);
+    cache_complete(c, again, good);
+    assert_int_equal(third.woken, 1);
+    assert_ptr_equal(third.came, good);
+    assert_false(cache_release(c, &third.waiter));
+    entry_unref(third.came);
+    entry_unref(late);
+    entry_unref(good);
+    assert_true(holds(c, 7));
+    cache_free(c);
+}
+
+static void transient_answers_reach_all_and_are_not_kept(void **state)
+{
+    (void)state;
+    cache *c = cache_new(100000);
+    const cache_key key = key_number(7);
+    listener first = listener_new(1), second = listener_new(2);
+    entry *hit = NULL;
+    flight *lead = NULL;
+    assert_int_equal(cache_acquire(c, &key, &first.waiter, &hit, &lead), ROLE_LEADER);
+    assert_int_equal(cache_acquire(c, &key, &second.waiter, &hit, &lead), ROLE_FOLLOWER);
+    entry *e = entry_of_size(&key, 200, 10);
+    e->transient = true;
+    cache_complete(c, lead, e);
+    assert_ptr_equal(first.came, e);
+    assert_ptr_equal(second.came, e);
+    assert_false(e->stored);
+    assert_false(holds(c, 7));
+    assert_int_equal(cache_count(c).solves, 1);
+    entry_unref(first.came);
+    entry_unref(second.came);
+    entry_unref(e);
+    cache_free(c);
+}
+
+typedef struct crowd {
+    cache *cache;
+    pthread_barrier_t start;
+    atomic_int leads, joins, hits;
+} crowd;
+
+static void *one_of_the_crowd(void *argument)
+{
+    crowd *all = argument;
+    for (uint64_t round = 0; round < 200; round++) {
+        const cache_key key = key_number(round);
+        listener l = listener_new(round);
+        entry *hit = NULL;
+        flight *lead = NULL;
+        pthread_barrier_wait(&all->start);
+        switch (cache_acquire(all->cache, &key, &l.waiter, &hit, &lead)) {
+        case ROLE_LEADER: {
+            atomic_fetch_add(&all->leads, 1);
+            entry *e = entry_of_size(&key, 200, 100);
+            cache_complete(all->cache, lead, e);
+            entry_unref(e);
+            break;
+        }
+        case ROLE_FOLLOWER:
+            atomic_fetch_add(&all->joins, 1);
+            while (!atomic_load(&l.woken))
+                sched_yield();
+            break;
+        default:
+            atomic_fetch_add(&all->hits, 1);
+            l.came = hit;
+        }
+        entry_unref(l.came);
+        /* Nobody asks for the next before all have the answer to this one. */
+        pthread_barrier_wait(&all->start);
+    }
+    return NULL;
+}
+
+static void equal_requests_of_many_threads_are_solved_once(void **state)
+{
+    (void)state;
+    enum { THREADS = 8, ROUNDS = 200 };
+    crowd all = {.cache = cache_new(50000)}; /* too small for all rounds: it evicts meanwhile */
+    pthread_t threads[THREADS];
+    pthread_barrier_init(&all.start, NULL, THREADS);
+    for (int i = 0; i < THREADS; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, one_of_the_crowd, &all), 0);
+    for (int i = 0; i < THREADS; i++)
+        pthread_join(threads[i], NULL);
+    assert_int_equal(all.leads, ROUNDS);
+    assert_int_equal(all.leads + all.joins + all.hits, THREADS * ROUNDS);
+    const cache_counters count = cache_count(all.cache);
+    assert_int_equal(count.solves, ROUNDS);
+    assert_int_equal(count.flights, 0);
+    assert_true(count.bytes <= count.cap);
+    pthread_barrier_destroy(&all.start);
+    cache_free(all.cache);
+}
+
+/* ---- memory ---- */
+
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    const cache_key key = key_number(1);
+    bool all_done = false;
+    for (long n = 0; !all_done; n++) {
+        assert_true(n < 100);
+        strbuf body = {0};
+        strbuf_add_string(&body, "an answer");
+        listener l = listener_new(2);
+        entry *hit = NULL;
+        flight *lead = NULL;
+        allocations_left = n;
+        cache *c = cache_new(100000);
+        entry *e = entry_new(&key, 200, &body);
+        if (c && e && cache_acquire(c, &key, &l.waiter, &hit, &lead) == ROLE_LEADER) {
+            cache_complete(c, lead, e);
+            assert_ptr_equal(l.came, e);
+            all_done = allocations_left > 0;
+        }
+        allocations_left = -1;
+        assert_null(body.data); /* taken or freed */
+        entry_unref(l.came);
+        entry_unref(e);
+        cache_free(c);
+    }
+}
+
+/* The bytes that are counted are at least those that are taken, prebuilt included. Sanitizers'
+ * allocators do not say. */
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+static void no_more_memory_is_taken_than_is_counted(void **state)
+{
+    (void)state;
+    char origins[] = "https://example.org";
+    const settings set = {.cors_origins = origins};
+    server s = {.settings = &set};
+    const size_t before = mallinfo2().uordblks;
+    cache *c = cache_new(8 << 20);
+    for (uint64_t i = 0; i < 5000; i++) {
+        const cache_key key = key_number(i);
+        listener l = listener_new(i);
+        entry *hit = NULL;
+        flight *lead = NULL;
+        assert_int_equal(cache_acquire(c, &key, &l.waiter, &hit, &lead), ROLE_LEADER);
+        entry *e = entry_of_size(&key, 200, (size_t)(i % 40) * 100 + 1);
+        reply_prebuild(&s, e);
+        assert_non_null(e->prebuilt[ENTRY_PREBUILT - 1]);
+        cache_complete(c, lead, e);
+        entry_unref(l.came);
+        entry_unref(e);
+        const size_t taken = mallinfo2().uordblks - before;
+        assert_true(taken <= cache_count(c).bytes);
+        assert_true(cache_count(c).bytes <= 8 << 20);
+    }
+    assert_true(cache_count(c).evictions > 0);
+    cache_free(c);
+}
+#endif
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(keys_are_sha_256),
+        cmocka_unit_test(parts_do_not_run_together),
+        cmocka_unit_test(malformed_keys_are_refused),
+        cmocka_unit_test(the_least_recently_used_goes_first),
+        cmocka_unit_test(what_is_larger_than_the_cache_is_answered_and_not_kept),
+        cmocka_unit_test(random_use_follows_the_model),
+        cmocka_unit_test(an_answer_is_found_by_the_bytes_of_its_last_bodies),
+        cmocka_unit_test(a_body_has_a_key_of_its_own),
+        cmocka_unit_test(refusals_reach_all_and_are_not_kept),
+        cmocka_unit_test(without_memory_all_are_woken_with_nothing),
+        cmocka_unit_test(the_last_to_give_up_cancels),
+        cmocka_unit_test(transient_answers_reach_all_and_are_not_kept),
+        cmocka_unit_test(equal_requests_of_many_threads_are_solved_once),
+        cmocka_unit_test(every_allocation_may_fail),
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+        cmocka_unit_test(no_more_memory_is_taken_than_is_counted),
+#endif
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Forced motion against shooting, statics, resonances and sums of harmonics. */
+#include <strum/strum.h>
+
+#include <gsl/gsl_errno.h>
+#include <stdlib.h>
+
+#include "check.h"
+
+#include <complex.h>
+
+static double uniform(double low, double high)
+{
+    return low + (high - low) * (rand() / (double)RAND_MAX);
+}
+
+static strum_cable random_cable(void)
+{
+    const double mu = uniform(0.05, 1.6);
+    strum_cable cable = {.chi_m = rand() % 3 == 0 ? 0 : uniform(-1.2, 1.2),
+                         .mu = mu,
+                         .mass_t = 1,
+                         .mass_n = rand() % 2 ? 1 : uniform(1, 2.5)};
+    if (rand() % 2)
+        cable.kappa_t = pow(10, uniform(-6, -1));
+    if (rand() % 2)
+        cable.kappa_n = cable.kappa_t;
+    if (rand() % 3 == 0) {
+        cable.eta_t = uniform(0, 0.5) / mu;
+        cable.eta_n = rand() % 2 ? cable.eta_t * cable.mass_n : uniform(0, 1) / mu;
+    }
+    return cable;
+}
+
+/* The Galerkin response and the integrated one, at random frequencies and places. */
+static void responses_agree_with_shooting(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 60; i++) {
+        const strum_cable cable = random_cable();
+        const double highest = uniform(0.1, 12) / cable.mu;
+        strum_forced *forced;
+        strum_error fault;
+        if (strum_forced_make(&cable, highest, true, true, &forced, &fault) != STRUM_OK)
+            fail_msg("%s", fault.reason);
+        strum_response *response = strum_response_make(forced);
+        const strum_end_motion motion = {uniform(-1, 1), CMPLX(uniform(-1, 1), i % 2),
+                                         uniform(-1, 1)};
+        for (int j = 0; j < 3; j++) {
+            const double frequency = highest * uniform(0.001, 1);
+            strum_forced_point shot[9];
+            double largest[4] = {0}, worst[4] = {0};
+            if (strum_forced_solve(forced, frequency, &motion, response, NULL) != STRUM_OK)
+                continue;
+            for (int k = 0; k < 9; k++)
+                shot[k].chi = cable.chi_m + cable.mu * (k / 4.0 - 1);
+            assert_int_equal(strum_forced_shoot(&cable, frequency, &motion, shot, 9, NULL),
+                             STRUM_OK);
+            for (int k = 0; k < 9; k++) {
+                strum_forced_point at;
+                strum_response_at(response, shot[k].chi, &at);
+                const double _Complex pairs[4][2] = {{at.tangential, shot[k].tangential},
+                                                     {at.normal, shot[k].normal},
+                                                     {at.out_of_plane, shot[k].out_of_plane},
+                                                     {at.tension, shot[k].tension}};
+                for (int c = 0; c < 4; c++) {
+                    largest[c] = fmax(largest[c], cabs(pairs[c][1]));
+                    worst[c] = fmax(worst[c], cabs(pairs[c][0] - pairs[c][1]));
+                }
+            }
+            const double moved = fmax(largest[0], largest[1]);
+            if (!(worst[0] < 1e-8 * moved && worst[1] < 1e-8 * moved &&
+                  worst[2] < 1e-8 * largest[2] && worst[3] < 1e-8 * largest[3]))
+                fail_msg("chi_m %g mu %g kappa %g %g mass %g eta %g %g frequency %g: %.1e %.1e "
+                         "%.1e %.1e",
+                         cable.chi_m, cable.mu, cable.kappa_t, cable.kappa_n, cable.mass_n,
+                         cable.eta_t, cable.eta_n, frequency, worst[0] / moved,
+                         worst[1] / moved, worst[2] / largest[2], worst[3] / largest[3]);
+        }
+        strum_response_free(&response);
+        strum_forced_free(&forced);
+    }
+}
+
+/* No sample of the tension exceeds the peak, and the peak is reached. */
+static void peak_is_the_largest(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 40; i++) {
+        const strum_cable cable = random_cable();
+        const double highest = uniform(1, 15) / cable.mu;
+        strum_forced *forced;
+        assert_int_equal(strum_forced_make(&cable, highest, true, false, &forced, NULL),
+                         STRUM_OK);
+        strum_response *response = strum_response_make(forced);
+        const strum_end_motion motion = {uniform(-1, 1), uniform(-1, 1), 0};
+        if (strum_forced_solve(forced, highest, &motion, response, NULL) == STRUM_OK) {
+            strum_peak peak;
+            strum_forced_point at;
+            double largest = 0;
+            strum_response_peak(response, &peak);
+            for (int k = 0; k <= 20000; k++) {
+                strum_response_at(response, cable.chi_m + cable.mu * (k / 10000.0 - 1), &at);
+                largest = fmax(largest, cabs(at.tension));
+            }
+            assert_true(peak.tension >= largest * (1 - 1e-13));
+            check_relative(peak.tension, largest, 1e-6);
+            strum_response_at(response, peak.chi, &at);
+            check_relative(cabs(at.tension), peak.tension, 1e-11);
+            check_absolute(cos(peak.phase), creal(at.tension) / cabs(at.tension), 1e-7);
+        }
+        strum_response_free(&response);
+        strum_forced_free(&forced);
+    }
+}
+
+/* Statics: pulling an inextensible level cable slowly at one end changes its shape to the
+ * catenary of the new span; T = t.dF with dF the change of end forces, here by a difference of
+ * exact equilibria. */
+static void frequency_zero_is_the_difference_of_equilibria(void **state)
+{
+    (void)state;
+    const double span = 2, rise = 0.6, length = 2.6, step = 1e-5;
+    strum_catenary before, after, base;
+    assert_int_equal(strum_catenary_from_length(span, rise, length, &base, NULL), STRUM_OK);
+    const double a = span / base.span;
+    const strum_cable cable = {.chi_m = base.chi_m, .mu = base.mu, .mass_t = 1, .mass_n = 1};
+    strum_forced *forced;
+    assert_int_equal(strum_forced_make(&cable, 0, true, false, &forced, NULL), STRUM_OK);
+    strum_response *response = strum_response_make(forced);
+    for (int direction = 0; direction < 2; direction++) {
+        const double dx = direction == 0 ? step : 0, dy = step - dx;
+        assert_int_equal(
+            strum_catenary_from_length(span - dx, rise - dy, length, &before, NULL), STRUM_OK);
+        assert_int_equal(strum_catenary_from_length(span + dx, rise + dy, length, &after, NULL),
+                         STRUM_OK);
+        /* end forces in units of w a: H and V at end 1; the Cartesian dynamic force is constant
+         * in statics */
+        const double ab = (span - dx) / before.span / a, aa = (span + dx) / after.span / a;
+        const double fx = (aa - ab) / (2 * step / a);
+        const double fy =
+            (aa * sinh(after.chi_m - after.mu) - ab * sinh(before.chi_m - before.mu)) /
+            (2 * step / a);
+        const double chi_2 = base.chi_m + base.mu, c = 1 / cosh(chi_2), s = tanh(chi_2);
+        const strum_end_motion motion = {direction == 0 ? c : s, direction == 0 ? -s : c, 0};
+        assert_int_equal(strum_forced_solve(forced, 0, &motion, response, NULL), STRUM_OK);
+        for (int k = 0; k <= 4; k++) {
+            const double chi = base.chi_m + base.mu * (k / 2.0 - 1);
+            strum_forced_point at;
+            strum_response_at(response, chi, &at);
+            check_absolute(creal(at.tension), fx / cosh(chi) + fy * tanh(chi), 1e-7);
+        }
+    }
+    strum_response_free(&response);
+    strum_forced_free(&forced);
+}
+
+/* Resonances are the natural frequencies; beside one, |T| (omega/omega_n - 1) tends to the
+ * residue; on it there is no answer, unless the cable is damped. */
+static void resonances_are_natural_frequencies(void **state)
+{
+    (void)state;
+    const strum_cable cable = {
+        .chi_m = 0.436, .mu = 0.803, .mass_t = 1, .mass_n = 1.3, .kappa_t = 1e-3};
+    strum_forced *forced;
+    assert_int_equal(strum_forced_make(&cable, 12, true, true, &forced, NULL), STRUM_OK);
+    strum_response *response = strum_response_make(forced);
+    const strum_end_motion motion = {0.3, -0.2, 1};
+    strum_resonance list[64], met;
+    const int count = strum_forced_resonances(forced, &motion, list, 64);
+    for (int plane = 0; plane < 2; plane++) {
+        strum_spectrum *spectrum;
+        int modes = 0;
+        for (int i = 0; i < count; i++)
+            modes += list[i].plane == (strum_plane)plane;
+        assert_true(modes > 3);
+        assert_int_equal(
+            strum_modes_solve(&cable, (strum_plane)plane, modes + 1, false, &spectrum, NULL),
+            STRUM_OK);
+        assert_true(strum_spectrum_mode(spectrum, modes)->frequency > 12);
+        for (int i = 0; i < count; i++)
+            if (list[i].plane == (strum_plane)plane)
+                check_relative(list[i].frequency,
+                               strum_spectrum_mode(spectrum, list[i].mode - 1)->frequency,
+                               1e-12);
+        strum_spectrum_free(&spectrum);
+    }
+    for (int i = 0; i < count; i++) {
+        if (list[i].plane != STRUM_IN_PLANE)
+            continue;
+        strum_peak peak;
+        assert_int_equal(
+            strum_forced_solve(forced, list[i].frequency * (1 + 1e-6), &motion, response, NULL),
+            STRUM_OK);
+        strum_response_peak(response, &peak);
+        check_relative(peak.tension * 1e-6, list[i].residue, 2e-2);
+        assert_int_equal(strum_forced_solve(forced, list[i].frequency, &motion, response, &met),
+                         STRUM_ERR_METHOD);
+        check_relative(met.frequency, list[i].frequency, 1e-12);
+    }
+    strum_response_free(&response);
+    strum_forced_free(&forced);
+    strum_cable damped = cable;
+    damped.eta_t = damped.eta_n = 0.01;
+    assert_int_equal(strum_forced_make(&damped, 12, true, false, &forced, NULL), STRUM_OK);
+    response = strum_response_make(forced);
+    assert_int_equal(strum_forced_solve(forced, list[0].frequency, &motion, response, NULL),
+                     STRUM_OK);
+    strum_response_free(&response);
+    strum_forced_free(&forced);
+}
+
+/* Pulled sideways slowly: statics out of plane of an elastic profile is W_chi = (1 + kappa cosh
+ * chi) V with V constant, so W is the share of the horizontal projection x: a straight line in
+ * plan. */
+static void slow_sideways_motion_is_straight_in_plan(void **state)
+{
+    (void)state;
+    strum_catenary c;
+    assert_int_equal(strum_catenary_from_unstretched(10, 3, 10.2, 0.4, &c, NULL), STRUM_OK);
+    const strum_cable cable = {.chi_m = c.chi_m,
+                               .mu = c.mu,
+                               .kappa_t = c.kappa,
+                               .kappa_n = c.kappa,
+                               .mass_t = 1,
+                               .mass_n = 1};
+    strum_forced *forced;
+    assert_int_equal(strum_forced_make(&cable, 0, false, true, &forced, NULL), STRUM_OK);
+    strum_response *response = strum_response_make(forced);
+    const strum_end_motion motion = {0, 0, 1};
+    assert_int_equal(strum_forced_solve(forced, 0, &motion, response, NULL), STRUM_OK);
+    for (int i = 0; i <= 10; i++) {
+        const double chi = c.chi_m + c.mu * (i / 5.0 - 1);
+        double x, y;
+        strum_forced_point at;
+        strum_catenary_point(&c, chi, &x, &y);
+        strum_response_at(response, chi, &at);
+        check_absolute(creal(at.out_of_plane), x / c.span, 1e-12);
+    }
+    strum_response_free(&response);
+    strum_forced_free(&forced);
+}
+
+/* A sum of harmonics never exceeds its peak, and takes that value at the phase that is named.
+ */
+static void periodic_peak_is_the_largest(void **state)
+{
+    (void)state;
+    const strum_cable cable = {.chi_m = 0.2, .mu = 0.9, .mass_t = 1, .mass_n = 1};
+    strum_forced *forced;
+    assert_int_equal(strum_forced_make(&cable, 6, true, false, &forced, NULL), STRUM_OK);
+    const int multiples[3] = {1, 2, 5};
+    const strum_end_motion motions[3] = {
+        {0.01, 0, 0}, {0, 0.004, 0}, {CMPLX(0.001, 0.002), 0, 0}};
+    strum_response *responses[3];
+    for (int k = 0; k < 3; k++) {
+        responses[k] = strum_response_make(forced);
+        assert_int_equal(
+            strum_forced_solve(forced, 1.1 * multiples[k], &motions[k], responses[k], NULL),
+            STRUM_OK);
+    }
+    strum_periodic_peak peak;
+    assert_int_equal(strum_periodic_peak_find(responses, multiples, 3, &peak), STRUM_OK);
+    double largest = 0;
+    for (int i = 0; i <= 400; i++) {
+        double _Complex tension[3];
+        for (int k = 0; k < 3; k++) {
+            strum_forced_point at;
+            strum_response_at(responses[k], cable.chi_m + cable.mu * (i / 200.0 - 1), &at);
+            tension[k] = at.tension;
+        }
+        for (int j = 0; j < 720; j++) {
+            double sum = 0;
+            for (int k = 0; k < 3; k++)
+                sum += creal(tension[k] * cexp(CMPLX(0, multiples[k] * j * M_PI / 360)));
+            largest = fmax(largest, fabs(sum));
+        }
+    }
+    assert_true(fabs(peak.tension) >= largest * (1 - 1e-12));
+    check_relative(fabs(peak.tension), largest, 1e-3);
+    double there = 0;
+    for (int k = 0; k < 3; k++) {
+        strum_forced_point at;
+        strum_response_at(responses[k], peak.chi, &at);
+        there += creal(at.tension * cexp(CMPLX(0, multiples[k] * peak.phase)));
+        strum_response_free(&responses[k]);
+    }
+    check_relative(there, peak.tension, 1e-9);
+    strum_forced_free(&forced);
+}
+
+static void what_cannot_be_forced_is_refused(void **state)
+{
+    (void)state;
+    strum_cable cable = {.mu = 1, .mass_t = 1, .mass_n = 1};
+    strum_forced *forced = NULL;
+    strum_error fault;
+    assert_int_equal(strum_forced_make(&cable, -1, true, false, &forced, &fault),
+                     STRUM_ERR_RANGE);
+    assert_int_equal(strum_forced_make(&cable, NAN, true, false, &forced, &fault),
+                     STRUM_ERR_RANGE);
+    assert_int_equal(strum_forced_make(&cable, 1e4, true, false, &forced, &fault),
+                     STRUM_ERR_RANGE);
+    assert_null(forced);
+    cable.mu = 0;
+    assert_int_equal(strum_forced_make(&cable, 1, true, false, &forced, &fault),
+                     STRUM_ERR_RANGE);
+    cable.mu = 1;
+    assert_int_equal(strum_forced_make(&cable, 1, true, false, &forced, &fault), STRUM_OK);
+    strum_response *response = strum_response_make(forced);
+    const strum_end_motion motion = {1, 0, 0};
+    assert_int_equal(strum_forced_solve(forced, 1.5, &motion, response, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_forced_solve(forced, -1, &motion, response, NULL), STRUM_ERR_RANGE);
+    strum_response_free(&response);
+    strum_forced_free(&forced);
+}
+
+int main(void)
+{
+    (void)gsl_set_error_handler_off();
+    srand(1976);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(responses_agree_with_shooting),
+        cmocka_unit_test(peak_is_the_largest),
+        cmocka_unit_test(frequency_zero_is_the_difference_of_equilibria),
+        cmocka_unit_test(resonances_are_natural_frequencies),
+        cmocka_unit_test(slow_sideways_motion_is_straight_in_plan),
+        cmocka_unit_test(periodic_peak_is_the_largest),
+        cmocka_unit_test(what_cannot_be_forced_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
