@@ -20,9 +20,7 @@
 
 #include <strum/taut.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+STRUM_BEGIN_DECLS
 
 #define STRUM_ABSORBER_VARIABLES_MAX 6
 #define STRUM_ABSORBER_OPTIMA_MAX    16
@@ -98,7 +96,5 @@ strum_absorber_form strum_absorber_coalescence(double mass, double ratio, double
 strum_absorber_form strum_absorber_universal_curve(double length, double mass_per_length,
                                                    double tension, double position, long mode);
 
-#ifdef __cplusplus
-}
-#endif
+STRUM_END_DECLS
 #endif

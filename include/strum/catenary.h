@@ -25,14 +25,9 @@
 #ifndef STRUM_CATENARY_H
 #define STRUM_CATENARY_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include <strum/types.h>
 
-#include <strum/status.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
+STRUM_BEGIN_DECLS
 
 /* ---- geometry ---- */
 
@@ -98,16 +93,6 @@ typedef struct strum_cable {
     double eta_t, eta_n; /* viscous damping per length, >= 0 (Gale's eta_1, eta_2) */
 } strum_cable;
 
-typedef enum strum_plane { STRUM_IN_PLANE, STRUM_OUT_OF_PLANE } strum_plane;
-
-/* Of the displacement normal to the chord (in plane) or of the displacement (out of plane)
- * about the middle of a level cable. */
-typedef enum strum_symmetry {
-    STRUM_NO_SYMMETRY,
-    STRUM_SYMMETRIC,
-    STRUM_ANTISYMMETRIC
-} strum_symmetry;
-
 typedef struct strum_mode {
     double frequency; /* Im s > 0; the natural frequency where undamped */
     double decay;     /* -Re s; 0 where undamped */
@@ -119,9 +104,8 @@ typedef struct strum_mode {
  * +1. */
 typedef struct strum_shape_point {
     double chi;
-    double _Complex tangential,
-        normal;              /* in plane; `normal` is the displacement out of plane */
-    double _Complex tension; /* dynamic tension in S0 per unit displacement in a */
+    strum_complex tangential, normal; /* in plane; `normal` is the displacement out of plane */
+    strum_complex tension;            /* dynamic tension in S0 per unit displacement in a */
 } strum_shape_point;
 
 typedef struct strum_spectrum strum_spectrum;
@@ -155,18 +139,11 @@ int strum_spectrum_size(const strum_spectrum *spectrum);
 strum_status strum_spectrum_shape(const strum_spectrum *spectrum, int index, const double *chi,
                                   int points, strum_shape_point *shape);
 
-/* What a second, independent method says of a spectrum: in plane the displacement Galerkin
+/* A second, independent method: in plane the displacement Galerkin
  * method (Gale's equation 2.35 in weak form; with elasticity its Hellinger-Reissner form, which
- * does not lock), out of plane the force form. */
-typedef struct strum_verification {
-    const char *method; /* static strbuf */
-    double max_relative_difference;
-    int modes_expected,
-        modes_found;     /* expected: counted by the second method up to the last frequency */
-    double max_residual; /* of the eigenpairs in the second method's pencil, relative */
-} strum_verification;
-
-/* The spectrum must have been solved with shapes (STRUM_ERR_METHOD otherwise). */
+ * does not lock), out of plane the force form. The spectrum must have been solved with shapes
+ * (STRUM_ERR_METHOD otherwise). Residuals are those of the eigenpairs in the second method\'s
+ * pencil. */
 strum_status strum_modes_verify(const strum_spectrum *spectrum,
                                 strum_verification *verification, strum_error *fault);
 
@@ -180,7 +157,5 @@ strum_status strum_modes_count(const strum_cable *cable, double frequency, int *
 strum_status strum_rayleigh_out_of_plane(const strum_catenary *catenary, double *frequency,
                                          strum_error *fault);
 
-#ifdef __cplusplus
-}
-#endif
+STRUM_END_DECLS
 #endif

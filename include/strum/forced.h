@@ -17,22 +17,20 @@
 
 #include <strum/catenary.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+STRUM_BEGIN_DECLS
 
 typedef struct strum_forced strum_forced;
 typedef struct strum_response strum_response;
 
 /* Displacement of end 2 in a, along and normal to the tangent there, and out of plane. */
 typedef struct strum_end_motion {
-    double _Complex tangential, normal, out_of_plane;
+    strum_complex tangential, normal, out_of_plane;
 } strum_end_motion;
 
 typedef struct strum_forced_point {
     double chi;
-    double _Complex tangential, normal, out_of_plane; /* displacement, in a */
-    double _Complex tension;                          /* in S0 */
+    strum_complex tangential, normal, out_of_plane; /* displacement, in a */
+    strum_complex tension;                          /* in S0 */
 } strum_forced_point;
 
 typedef struct strum_peak {
@@ -102,7 +100,5 @@ typedef struct strum_periodic_peak {
 strum_status strum_periodic_peak_find(strum_response *const *responses, const int *multiples,
                                       int count, strum_periodic_peak *peak);
 
-#ifdef __cplusplus
-}
-#endif
+STRUM_END_DECLS
 #endif

@@ -16,9 +16,7 @@
 
 #include <strum/catenary.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+STRUM_BEGIN_DECLS
 
 /* Ranges of strum_inclined. Within them a slope may still be too steep (STRUM_CHI_MAX). */
 #define STRUM_EPSILON_MIN         1e-6
@@ -124,7 +122,5 @@ strum_status strum_inclined_shape(const strum_inclined_modes *modes, int index, 
 strum_status strum_inclined_verify(const strum_inclined_modes *modes,
                                    strum_verification *verification, strum_error *fault);
 
-#ifdef __cplusplus
-}
-#endif
+STRUM_END_DECLS
 #endif

@@ -11,9 +11,7 @@
 
 #include <strum/catenary.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+STRUM_BEGIN_DECLS
 
 /* How an answer was found. */
 typedef struct strum_series_report {
@@ -41,7 +39,5 @@ strum_status strum_series_solve(const strum_cable *cable, strum_plane plane, int
  * method does not apply. */
 double strum_series_work(const strum_cable *cable, strum_plane plane, int count, bool thorough);
 
-#ifdef __cplusplus
-}
-#endif
+STRUM_END_DECLS
 #endif

@@ -21,14 +21,9 @@
 #ifndef STRUM_TAUT_H
 #define STRUM_TAUT_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include <strum/types.h>
 
-#include <strum/status.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
+STRUM_BEGIN_DECLS
 
 #define STRUM_TAUT_COMPONENTS_MAX 10000
 /* Links of one body. */
@@ -126,9 +121,9 @@ bool strum_taut_is_damped(const strum_taut *chain);
  * ends held), STRUM_ERR_RANGE where an entry is beyond a double. */
 strum_status strum_taut_component_matrix(const strum_taut *chain, size_t index,
                                          double frequency, double decay,
-                                         double _Complex matrix[4], strum_error *fault);
+                                         strum_complex matrix[4], strum_error *fault);
 strum_status strum_taut_matrix(const strum_taut *chain, double frequency, double decay,
-                               double _Complex matrix[4], strum_error *fault);
+                               strum_complex matrix[4], strum_error *fault);
 
 /* ---- modes without damping ---- */
 
@@ -211,9 +206,9 @@ strum_status strum_taut_follow(const strum_taut *chain, long mode, const double 
 /* ---- shapes ---- */
 
 typedef struct strum_taut_point {
-    double x;                     /* m from the left end */
-    double _Complex displacement; /* largest magnitude along the chain: +1 (the leftmost one) */
-    double _Complex force;        /* V = T y' per unit of displacement, N/m */
+    double x;                   /* m from the left end */
+    strum_complex displacement; /* largest magnitude along the chain: +1 (the leftmost one) */
+    strum_complex force;        /* V = T y' per unit of displacement, N/m */
 } strum_taut_point;
 
 typedef struct strum_taut_antinode {
@@ -239,21 +234,12 @@ size_t strum_taut_shape_antinodes(const strum_taut_shape *shape,
 
 /* ---- verification ---- */
 
-/* What a second, independent method says of roots found: without damping an assembled dynamic
- * stiffness with Wittrick and Williams' count, bisected; with damping the quadratic
- * eigenproblem of spectral finite elements. */
-typedef struct strum_taut_verification {
-    const char *method; /* static strbuf */
-    double max_relative_difference;
-    long modes_expected, modes_found; /* expected: counted by the second method */
-    double max_residual;              /* of the roots, as in strum_taut_roots */
-} strum_taut_verification;
-
-/* STRUM_ERR_METHOD where the second method would need too large a problem. */
+/* Roots found, by a second, independent method: without damping an assembled dynamic stiffness
+ * with Wittrick and Williams' count, bisected; with damping the quadratic eigenproblem of
+ * spectral finite elements. Residuals are those of the roots, as in strum_taut_roots.
+ * STRUM_ERR_METHOD where the second method would need too large a problem. */
 strum_status strum_taut_verify(const strum_taut *chain, const strum_taut_roots *roots,
-                               strum_taut_verification *verification, strum_error *fault);
+                               strum_verification *verification, strum_error *fault);
 
-#ifdef __cplusplus
-}
-#endif
+STRUM_END_DECLS
 #endif

@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <strum/status.h>
+#include <strum/version.h>
 
 #include "cache/redis.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <time.h>
 
-#include <strum/status.h>
+#include <strum/version.h>
 
 #include "endpoints/endpoint.h"
 

@@ -113,7 +113,7 @@ static void roots(void *data)
 static void damped_elements(void *data)
 {
     const task *t = data;
-    strum_taut_verification v;
+    strum_verification v;
     strum_error fault = {0};
     if (strum_taut_verify(t->chain, t->found, &v, &fault) != STRUM_OK)
         fail("strum_taut_verify", fault.reason);

@@ -10,7 +10,7 @@
 #include <complex.h>
 #include <math.h>
 
-#include <strum/shallow.h>
+#include <strum/handbook.h>
 
 #include "core/numerics/bracket.h"
 #include "core/inclined/inclined.h"

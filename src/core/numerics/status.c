@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include <strum/version.h>
+
 const char *strum_status_text(strum_status status)
 {
     switch (status) {
@@ -21,14 +23,38 @@ const char *strum_version(void)
     return STRUM_VERSION;
 }
 
-strum_status error_set(strum_error *fault, strum_status status, const char *format, ...)
+int strum_solver(void)
 {
-    if (fault != NULL) {
-        va_list arguments;
-        va_start(arguments, format);
-        fault->status = status;
-        (void)vsnprintf(fault->reason, sizeof fault->reason, format, arguments);
-        va_end(arguments);
+    return STRUM_SOLVER;
+}
+
+static strum_status set(strum_error *error, strum_status status, int argument, size_t index,
+                        const char *format, va_list arguments)
+{
+    if (error != NULL) {
+        error->status = status;
+        error->argument = argument;
+        error->index = index;
+        (void)vsnprintf(error->reason, sizeof error->reason, format, arguments);
     }
+    return status;
+}
+
+strum_status error_set(strum_error *error, strum_status status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    set(error, status, 0, STRUM_NO_INDEX, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+strum_status error_at(strum_error *error, strum_status status, int argument, size_t index,
+                      const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    set(error, status, argument, index, format, arguments);
+    va_end(arguments);
     return status;
 }

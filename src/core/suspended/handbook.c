@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Closed forms of the shallow cable and the taut string (include/strum/shallow.h). */
-#include <strum/shallow.h>
+/* Closed forms of the shallow cable and the taut string (include/strum/handbook.h). */
+#include <strum/handbook.h>
 
 #include <math.h>
 

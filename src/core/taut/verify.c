@@ -101,7 +101,7 @@ static double bisect(const strum_taut *chain, const taut_assembly *a, long mode,
 }
 
 static strum_status verify_undamped(const strum_taut *chain, const strum_taut_roots *roots,
-                                    strum_taut_verification *v, strum_error *fault)
+                                    strum_verification *v, strum_error *fault)
 {
     taut_assembly a;
     v->method = "assembled dynamic stiffness, Wittrick-Williams count, bisection";
@@ -200,7 +200,7 @@ static strum_status quadratic_roots(const taut_assembly *a, double sigma, double
 /* Compares: the eigenvalues inside the box that was counted, and the one nearest to each root.
  */
 static void compare(const strum_taut_roots *roots, size_t count, const double *re,
-                    const double *im, strum_taut_verification *v)
+                    const double *im, strum_verification *v)
 {
     for (size_t k = 0; k < count; k++)
         v->modes_expected += im[k] >= roots->lowest && im[k] <= roots->highest &&
@@ -218,7 +218,7 @@ static void compare(const strum_taut_roots *roots, size_t count, const double *r
 }
 
 static strum_status verify_damped(const strum_taut *chain, const strum_taut_roots *roots,
-                                  strum_taut_verification *v, strum_error *fault)
+                                  strum_verification *v, strum_error *fault)
 {
     taut_assembly a;
     v->method = "spectral finite elements, quadratic eigenproblem";
@@ -242,9 +242,9 @@ static strum_status verify_damped(const strum_taut *chain, const strum_taut_root
 }
 
 strum_status strum_taut_verify(const strum_taut *chain, const strum_taut_roots *roots,
-                               strum_taut_verification *verification, strum_error *fault)
+                               strum_verification *verification, strum_error *fault)
 {
-    *verification = (strum_taut_verification){.modes_found = roots->found,
+    *verification = (strum_verification){.modes_found = roots->found,
                                               .max_residual = roots->max_residual};
     return chain->damped ? verify_damped(chain, roots, verification, fault)
                          : verify_undamped(chain, roots, verification, fault);

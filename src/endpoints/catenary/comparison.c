@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include <strum/shallow.h>
+#include <strum/handbook.h>
 
 const char *const plane_keys[] = {"in_plane", "out_of_plane"};
 

@@ -403,7 +403,7 @@ static strum_status count_modes(const forced_request *r, const strum_resonance *
             strum_modes_solve(&undamped, (strum_plane)plane, modes, true, &spectrum, fault);
         if (status == STRUM_OK)
             status = strum_modes_verify(spectrum, &v, fault);
-        *expected += v.modes_expected;
+        *expected += (int)v.modes_expected;
         strum_spectrum_free(&spectrum);
     }
     return status;

@@ -230,7 +230,7 @@ static strum_status write_verification(json_writer *json, const strum_taut *chai
                                        const strum_taut_roots *roots, answer *a,
                                        strum_error *fault)
 {
-    strum_taut_verification v;
+    strum_verification v;
     const strum_status status = strum_taut_verify(chain, roots, &v, fault);
     if (status == STRUM_ERR_METHOD) {
         answer_warn(a, "not verified: %s; ask a narrower band", fault->reason);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "http/api/pages.h"
 
-#include <strum/status.h>
+#include <strum/version.h>
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-#include <strum/status.h>
+#include <strum/version.h>
 
 #include "http/transport/server.h"
 

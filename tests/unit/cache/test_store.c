@@ -9,7 +9,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <strum/status.h>
+#include <strum/version.h>
 
 #include "cache/store.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <strum/status.h>
+#include <strum/version.h>
 
 #include "check.h"
 #include "endpoints/endpoint.h"

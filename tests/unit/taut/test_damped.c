@@ -464,7 +464,7 @@ static void random_chains_agree_with_a_second_method(void **state)
         const double low = frequency_of(chain, 3), high = frequency_of(chain, 8);
         strum_taut_roots *roots =
             roots_of(chain, 0, 0.9 * low + 1e-3, 0.5 * (high + frequency_of(chain, 9)), high);
-        strum_taut_verification v;
+        strum_verification v;
         if (strum_taut_verify(chain, roots, &v, NULL) == STRUM_OK) {
             assert_int_equal(v.modes_expected, v.modes_found);
             assert_true(v.max_relative_difference < 1e-8);

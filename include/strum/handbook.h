@@ -6,14 +6,12 @@
  * inclined cable both use the chord: its length, the tension along it and the weight normal to
  * it. Units as in catenary.h.
  */
-#ifndef STRUM_SHALLOW_H
-#define STRUM_SHALLOW_H
+#ifndef STRUM_HANDBOOK_H
+#define STRUM_HANDBOOK_H
 
 #include <strum/catenary.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+STRUM_BEGIN_DECLS
 
 typedef struct strum_handbook {
     double chord;          /* L, length of the chord, in a */
@@ -37,7 +35,5 @@ double strum_handbook_in_plane(const strum_handbook *shallow, strum_symmetry sym
  * INFINITY. */
 double strum_handbook_root(double lambda_squared, int k);
 
-#ifdef __cplusplus
-}
-#endif
+STRUM_END_DECLS
 #endif
