@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cache/slot.h"
+#include "cache/cache.h"
 
 #include <pthread.h>
 #include <assert.h>
@@ -7,6 +7,8 @@
 #include <sodium/randombytes.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "cache/slot.h"
 
 struct flight {
     slot slot;

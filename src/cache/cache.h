@@ -7,39 +7,7 @@
 #ifndef CACHE_CACHE_H
 #define CACHE_CACHE_H
 
-#include "cache/key.h"
-
-/* ---- entries ---- */
-
-#define ENTRY_PREBUILT 2
-
-/* An answer, or a refusal that several requests wait for: immutable and shared by reference. */
-typedef struct entry {
-    cache_key key;
-    char hex[KEY_HEX_SIZE];
-    int status; /* HTTP status; only 200 is stored */
-    char *body; /* owned; JSON (application/problem+json unless the status is 200) */
-    size_t size;
-    double queue_us, solve_us; /* spent waiting for a worker, and in endpoint or store */
-    bool stored;               /* set by cache_complete, before anybody is woken */
-    bool transient;            /* might come out otherwise another time: never stored */
-    bool from_store;           /* from the shared store: solved elsewhere */
-    /* What http has made ready for sending the entry again: set before the entry is shared,
-     * dropped with the last reference. It may point into `body` as long as it holds the body
-     * (entry_hold_body). */
-    void *prebuilt[ENTRY_PREBUILT];
-    void (*prebuilt_drop)(void *face);
-} entry;
-
-/* Takes over the bytes of `body` (which is as new afterwards). NULL when memory ran out. */
-entry *entry_new(const cache_key *key, int status, strbuf *body);
-entry *entry_ref(entry *e);
-void entry_unref(entry *e); /* NULL is fine */
-void entry_hold_body(entry *e);
-void entry_release_body(entry *e);
-
-/* Answers `a` (200), or says why not (the problem's status). NULL when memory ran out. */
-entry *entry_solve(const evaluation *a, const cache_key *key, observer *w);
+#include "cache/entry.h"
 
 /* ---- the cache ---- */
 
@@ -73,12 +41,13 @@ void cache_key_of_body(const cache *c, const void *owner, const char *body, size
 
 typedef struct flight flight;
 
-/* One who waits for an answer. Owned by the caller, who keeps it until `on_done` is called. */
+/* A request that waits for an answer. Owned by the caller, which keeps it until `on_done`. */
 typedef struct waiter {
     cache_key raw; /* of the bytes it asked with; a stored answer is found by it next time */
     /* The answer, referenced for the waiter; NULL: memory ran out. From any thread. */
     void (*on_done)(struct waiter *w, entry *outcome);
-    /* How far it is; may be NULL. Under the cache's lock: short, and no call of this file. */
+    /* Progress callback; may be NULL. Called with the cache lock held: must be short and must
+     * not call any function of this file. */
     void (*on_progress)(struct waiter *w, const progress *so_far);
     struct waiter *next; /* the rest is the cache's */
     flight *flight;
@@ -86,7 +55,7 @@ typedef struct waiter {
 
 typedef enum cache_role {
     ROLE_HIT,      /* *hit is the stored answer, referenced for the caller */
-    ROLE_FOLLOWER, /* somebody solves it: `w` will be woken */
+    ROLE_FOLLOWER, /* another request solves it: on_done of `w` will be called */
     ROLE_LEADER, /* the caller must solve it and call cache_complete(*lead); `w` is woken too */
     ROLE_NONE    /* memory ran out */
 } cache_role;

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "cache/cache.h"
+#include "cache/entry.h"
 
 typedef enum slot_kind { SLOT_NONE, SLOT_CANONICAL, SLOT_RAW, SLOT_FLIGHT } slot_kind;
 
