@@ -56,20 +56,21 @@ typedef struct waiter {
 typedef enum cache_role {
     ROLE_HIT,      /* *hit is the stored answer, referenced for the caller */
     ROLE_FOLLOWER, /* another request solves it: on_done of `w` will be called */
-    ROLE_LEADER, /* the caller must solve it and call cache_complete(*lead); `w` is woken too */
+    ROLE_LEADER, /* the caller must solve it and call cache_complete(*lead), which calls on_done
+                    of `w` too */
     ROLE_NONE    /* memory ran out */
 } cache_role;
 
 cache_role cache_acquire(cache *c, const cache_key *key, waiter *w, entry **hit, flight **lead);
-/* True once nobody waits for the flight any more: what endpoints poll. */
+/* Returns a flag that is true once every request has stopped waiting: endpoints poll it. */
 const _Atomic bool *flight_cancel(const flight *f);
-/* Lets all who wait for the flight hear. */
+/* Calls on_progress of every request that waits for the flight. */
 void cache_publish_progress(cache *c, flight *f, const progress *so_far);
-/* Ends a flight: stores `outcome` (if its status is 200 and it fits), wakes all who wait. The
- * caller keeps its own reference; NULL says that memory ran out. */
+/* Ends a flight: stores `outcome` (if its status is 200 and it fits) and calls on_done of every
+ * request that waits. The caller keeps its own reference; NULL says that memory ran out. */
 void cache_complete(cache *c, flight *f, entry *outcome);
-/* `w` gives up waiting; the last one to do so cancels the flight. True: it will not be woken,
- * the caller must do what waking would have done. False: it is being woken. */
+/* `w` stops waiting; the last one to do so cancels the flight. Returns true when on_done will
+ * not be called, and the caller must do its work; false when it is being called. */
 bool cache_release(cache *c, waiter *w);
 
 #endif
