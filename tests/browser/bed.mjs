@@ -96,9 +96,26 @@ export async function settled(page) {
   await page.locator('.tables h2').waitFor();
 }
 
+/* Chromium drops, without a word, the eleventh download that a frame begins within a second, and a page loaded anew keeps its frame
+ * with the count: findings/chromium_download_burst.sh. Only another page begins at nought. A test that asks one page for more would
+ * pass on a slow machine and wait in vain on a fast one: it is stopped on both. */
+const DOWNLOADS = 10;
+const downloads = new WeakMap();
+
+/* What a click saves. An error of the page ends the wait for a download that then does not come. */
 export async function saved(page, click) {
-  const [download] = await Promise.all([page.waitForEvent('download'), click()]);
-  return { name: download.suggestedFilename(), data: readFileSync(await download.path()) };
+  const begun = (downloads.get(page) ?? 0) + 1;
+  assert.ok(begun <= DOWNLOADS, `more than ${DOWNLOADS} downloads of one page: open another`);
+  downloads.set(page, begun);
+  let fail;
+  const fault = new Promise((done, refuse) => { fail = refuse; });
+  page.on('pageerror', fail);
+  try {
+    const [download] = await Promise.race([fault, Promise.all([page.waitForEvent('download'), click()])]);
+    return { name: download.suggestedFilename(), data: readFileSync(await download.path()) };
+  } finally {
+    page.off('pageerror', fail);
+  }
 }
 
 /* How many different colours a canvas shows: 1 is an empty one. */

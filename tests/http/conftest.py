@@ -120,6 +120,15 @@ class Strumd:
         assert not strange, strange
 
 
+def reserve_port():
+    """A bound socket that does not listen. For a server that cannot choose its port itself: while this is open, nobody
+    else is given the port, and a server that sets SO_REUSEADDR may listen there."""
+    reserved = socket.socket()
+    reserved.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    reserved.bind(("127.0.0.1", 0))
+    return reserved
+
+
 def read_answers(connection, wait=True):
     """Reads until the end of the stream, or until `wait` answers are complete."""
     got = b""

@@ -132,7 +132,8 @@ def test_who_leaves_does_not_end_it_for_others(start_strumd):
 def test_who_waits_too_long_gets_a_problem(start_strumd):
     strumd = start_strumd(*ONE_WORKER, "--solve-timeout-s", "0.3")
     *told, (event, data) = events(strumd.post(ENDLESS, FORCED, headers=EVENTS))
-    assert told and event == "problem"
+    # a slow machine may have told nothing by then
+    assert {name for name, _ in told} <= {"progress"} and event == "problem"
     assert json.loads(data)["status"] == 503 and "solve_timeout_s" in data
     wait_metric(strumd, "workers_busy", 0)
     assert strumd.metric("cancels_total") == 1

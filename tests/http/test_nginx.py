@@ -9,7 +9,7 @@ import time
 import pytest
 import requests
 
-from conftest import CHEAP, PATIENCE, PATH, ROOT, read_answers, split_answers
+from conftest import CHEAP, PATIENCE, PATH, ROOT, read_answers, reserve_port, split_answers
 
 CONFIG = ROOT / "deploy/nginx/strum.conf"
 MAIN = """daemon off;
@@ -27,22 +27,20 @@ http {{
 """
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 class Proxy:
     """nginx with the shipped file; only its addresses are others."""
 
     def __init__(self, folder, replicas):
         self.replicas = replicas
-        self.port = free_port()
+        with reserve_port() as reserved:
+            self.port = reserved.getsockname()[1]
+            self.start(folder)
+
+    def start(self, folder):
         self.url = f"http://127.0.0.1:{self.port}"
         text, count = re.subn(r"listen 8080;", f"listen 127.0.0.1:{self.port};", CONFIG.read_text())
         assert count == 1
-        for number, replica in enumerate(replicas, start=8081):
+        for number, replica in enumerate(self.replicas, start=8081):
             text, count = re.subn(rf"127\.0\.0\.1:{number}\b", f"127.0.0.1:{replica.port}", text)
             assert count == 2
         # nginx refuses the line where it is not root, and would otherwise want the user that the package makes

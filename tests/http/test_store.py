@@ -11,10 +11,9 @@ import time
 
 import pytest
 
-from conftest import COSTLY, FORCED, IMPOSSIBLE, PATIENCE, PROGRAM
+from conftest import COSTLY, FORCED, IMPOSSIBLE, PATIENCE, PROGRAM, reserve_port
 from test_batch import answers, item, post_batch
 from test_load import answers_of, as_bytes, ask, costly, held, wait_metric
-from test_nginx import free_port
 
 FOUND = "strum-store; hit, strum; fwd=miss; stored"
 ALL = ("--inline-us", "0", "--store-timeout-ms", "60000")  # everything is shared, however slow this machine is
@@ -193,8 +192,9 @@ def test_expiry(start_strumd, redis, flags, least, most):
 
 
 def test_other_addresses(start_strumd, start_redis):
-    port = free_port()
-    redis = start_redis("--port", str(port), "--bind", "127.0.0.1")
+    with reserve_port() as reserved:
+        port = reserved.getsockname()[1]
+        redis = start_redis("--port", str(port), "--bind", "127.0.0.1")
     fill(start_strumd("--store", f"127.0.0.1:{port}", *ALL), [COSTLY])
     for host in ("127.0.0.1", "localhost"):
         cold = start_strumd("--store", f"{host}:{port}", *ALL)
