@@ -40,6 +40,16 @@ def test_only_known_tokens_are_let_in(start_strumd, token_file):
             assert answer.json()["status"] == 401 and "result" not in answer.text
 
 
+def test_with_tokens_nothing_is_public(start_strumd, token_file):
+    strumd = start_strumd("--token-file", token_file)
+    for _ in range(2):  # solved, then stored
+        answer = strumd.post(CHEAP, headers=bearer(ONE))
+        assert answer.headers["Cache-Control"] == "private, no-cache"
+    for headers in (bearer(ONE), {**bearer(ONE), "If-None-Match": answer.headers["ETag"]}):
+        kept = strumd.get(answer.headers["Content-Location"], headers=headers)
+        assert kept.headers["Cache-Control"] == "private, max-age=31536000, immutable"
+
+
 def test_probes_and_preflights_need_none(start_strumd, token_file):
     strumd = start_strumd("--token-file", token_file, "--cors-origins", "https://a.example")
     assert strumd.get("/livez").status_code == strumd.get("/readyz").status_code == 200

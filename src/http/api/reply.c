@@ -142,16 +142,17 @@ static void release_body(void *e)
     entry_release_body(e);
 }
 
-/* Faces: what is sent to POST, and to methods whose answers shared caches may keep. */
-enum { FACE_POST, FACE_SHARED };
+/* Prebuilt responses: what is sent from a question's own address, and from an answer's. */
+enum { FOR_QUESTION, FOR_KEY };
 
 static int prebuilt_for(const request *r)
 {
-    return r->method == METHOD_POST ? FACE_POST : FACE_SHARED;
+    return r->route.endpoint ? FOR_QUESTION : FOR_KEY;
 }
 
-/* What an answer says of itself, whoever asks. */
-static void describe(int face, struct MHD_Response *response, const entry *e)
+/* The headers of an answer that depend on nothing of the request but its address. */
+static void describe(const server *s, int address, struct MHD_Response *response,
+                     const entry *e)
 {
     char value[128];
     if (e->transient) {
@@ -162,10 +163,13 @@ static void describe(int face, struct MHD_Response *response, const entry *e)
     header(response, "ETag", value);
     snprintf(value, sizeof value, "/v1/results/%s", e->hex);
     header(response, "Content-Location", value);
-    /* By its key an answer is for ever. What POST says is not for store caches, some of which
-     * would take the URL alone for the key. */
-    header(response, "Cache-Control",
-           face == FACE_POST ? "no-cache" : "public, max-age=31536000, immutable");
+    /* An answer's key moves with the answer, so what stands at /v1/results/{key} never changes.
+     * The same question may have another answer after an upgrade: it is asked again, which
+     * costs one round trip (ETag, 304). With tokens no shared cache may keep either. */
+    const char *const value_of[2][2] = {
+        {"no-cache", "public, max-age=31536000, immutable"},
+        {"private, no-cache", "private, max-age=31536000, immutable"}};
+    header(response, "Cache-Control", value_of[s->access != NULL][address]);
 }
 
 static void prebuilt_drop(void *face)
@@ -183,7 +187,7 @@ void reply_prebuild(server *s, entry *e)
             return; /* hits are then made anew each time */
         entry_hold_body(e);
         header(face, "Content-Type", JSON_TYPE);
-        describe(i, face, e);
+        describe(s, i, face, e);
         header(face, "Cache-Status", "strum; hit");
         if (*s->settings->cors_origins)
             header(face, "Vary", "Origin");
@@ -260,7 +264,7 @@ enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
     if (!has)
         header(response, "Content-Type", good ? JSON_TYPE : PROBLEM_TYPE);
     if (good) {
-        describe(prebuilt_for(r), response, e);
+        describe(p->server, prebuilt_for(r), response, e);
         cache_status(response, e, source);
         if (source != REPLY_HIT)
             timing(p, response, e);
