@@ -9,6 +9,8 @@
 
 #include <stdatomic.h>
 
+#include <strum/options.h>
+
 #include "schema/schema.h"
 
 /* How far a long computation has come. */
@@ -44,6 +46,8 @@ typedef struct answer {
 void answer_progress(const answer *a, int64_t evaluations, double best, const char *what);
 /* Nobody waits any more: poll this where the work is long, and give up with 503. */
 bool answer_cancelled(const answer *a);
+/* What a solve of the library takes, so that it ends once nobody waits. */
+strum_options answer_options(const answer *a);
 void answer_warn(answer *a, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 typedef struct endpoint {

@@ -112,6 +112,21 @@ bool answer_cancelled(const answer *a)
     return a->cancel != NULL && atomic_load_explicit(a->cancel, memory_order_relaxed);
 }
 
+static bool is_cancelled(void *a)
+{
+    return answer_cancelled(a);
+}
+
+strum_options answer_options(const answer *a)
+{
+    strum_options options = STRUM_OPTIONS_INIT;
+    if (a->cancel != NULL) {
+        options.cancelled = is_cancelled;
+        options.context = (void *)(uintptr_t)a; /* only read */
+    }
+    return options;
+}
+
 static double now_us(void)
 {
     struct timespec now;

@@ -19,9 +19,10 @@ static void make(void *data)
 {
     task *t = data;
     strum_forced *forced;
-    if (strum_forced_make(&t->cable, t->highest, true, false, &forced, NULL) != STRUM_OK)
+    if (strum_forced_solve(&(strum_forced_params){t->cable, t->highest, true, false}, NULL,
+                           &forced, NULL) != STRUM_OK)
         exit(1);
-    strum_forced_free(&forced);
+    strum_forced_free(forced);
 }
 
 static void curve(void *data)
@@ -30,8 +31,8 @@ static void curve(void *data)
     const strum_end_motion motion = {0.01, 0, 0};
     for (int i = 0; i < FREQUENCIES; i++) {
         strum_peak peak;
-        if (strum_forced_solve(t->forced, t->highest * i / (FREQUENCIES - 1), &motion,
-                               t->response, NULL) == STRUM_OK) {
+        if (strum_response_solve(t->response, t->highest * i / (FREQUENCIES - 1), &motion,
+                                 NULL) == STRUM_OK) {
             strum_response_peak(t->response, &peak);
             t->sum += peak.tension;
         }
@@ -51,17 +52,19 @@ int main(void)
         task t = {.cable = {.chi_m = c.chi_m, .mu = c.mu, .mass_t = 1, .mass_n = 1},
                   .highest = 10};
         const double once = bench_median_us(make, &t, 15);
-        if (strum_forced_make(&t.cable, t.highest, true, false, &t.forced, NULL) != STRUM_OK)
+        if (strum_forced_solve(&(strum_forced_params){t.cable, t.highest, true, false}, NULL,
+                               &t.forced, NULL) != STRUM_OK)
             return 1;
-        t.response = strum_response_make(t.forced);
+        if (strum_response_make(t.forced, &t.response, NULL) != STRUM_OK)
+            return 1;
         const double all = once + bench_median_us(curve, &t, 7);
         (void)snprintf(name, sizeof name, "forced/%s/modal-solution", names[i]);
         bench_time(name, once);
         (void)snprintf(name, sizeof name, "forced/%s/curve-of-1000", names[i]);
         bench_time(name, all);
         worst = all / once > worst ? all / once : worst;
-        strum_response_free(&t.response);
-        strum_forced_free(&t.forced);
+        strum_response_free(t.response);
+        strum_forced_free(t.forced);
     }
     bench_ratio("forced/curve-over-modal-solution", worst, "at-most", 3);
     return 0;

@@ -19,8 +19,8 @@ typedef struct solving {
 static void solving_free(solving *s)
 {
     for (int i = 0; i < FORCED_HARMONICS_MAX; i++)
-        strum_response_free(&s->responses[i]);
-    strum_forced_free(&s->forced);
+        strum_response_free(s->responses[i]);
+    strum_forced_free(s->forced);
 }
 
 /* The field that holds the highest frequency. */
@@ -36,16 +36,17 @@ static const char *highest_field(const forced_request *r)
                                            : "/frequency_ratio_max";
 }
 
-static bool solving_make(solving *s, const forced_request *r, problem *p)
+static bool solving_make(solving *s, const forced_request *r, const answer *a)
 {
+    problem *p = a->problem;
     strum_error fault = {0};
     *s = (solving){.r = r};
-    strum_status status = strum_forced_make(&r->in.cable, r->highest / r->in.ratio, r->in_plane,
-                                            r->out_of_plane, &s->forced, &fault);
-    for (int i = 0; i < r->motion_count && status == STRUM_OK; i++) {
-        s->responses[i] = strum_response_make(s->forced);
-        status = s->responses[i] != NULL ? STRUM_OK : STRUM_ERR_MEMORY;
-    }
+    const strum_forced_params params = {r->in.cable, r->highest / r->in.ratio, r->in_plane,
+                                        r->out_of_plane};
+    const strum_options options = answer_options(a);
+    strum_status status = strum_forced_solve(&params, &options, &s->forced, &fault);
+    for (int i = 0; i < r->motion_count && status == STRUM_OK; i++)
+        status = strum_response_make(s->forced, &s->responses[i], &fault);
     if (status != STRUM_OK) {
         cable_refuse(&fault, status, p);
         if (status == STRUM_ERR_RANGE || status == STRUM_ERR_ACCURACY)
@@ -59,9 +60,9 @@ static strum_status solve_at(solving *s, double frequency_ratio)
 {
     strum_status status = STRUM_OK;
     for (int i = 0; i < s->r->motion_count && status == STRUM_OK; i++)
-        status =
-            strum_forced_solve(s->forced, frequency_ratio / s->r->in.ratio * s->r->multiples[i],
-                               &s->r->motions[i], s->responses[i], &s->at);
+        status = strum_response_solve(s->responses[i],
+                                      frequency_ratio / s->r->in.ratio * s->r->multiples[i],
+                                      &s->r->motions[i], &s->at);
     return status;
 }
 
@@ -106,8 +107,8 @@ static strum_status write_peak(json_writer *json, const solving *s, double frequ
     double tension, chi;
     if (periodic(r)) {
         strum_periodic_peak peak;
-        const strum_status status =
-            strum_periodic_peak_find(s->responses, r->multiples, r->motion_count, &peak);
+        const strum_status status = strum_periodic_peak_find(s->responses, r->multiples,
+                                                             (size_t)r->motion_count, &peak);
         if (status != STRUM_OK)
             return status;
         tension = fabs(peak.tension);
@@ -243,8 +244,8 @@ static strum_status write_profiles(json_writer *json, solving *s)
         } else if (status == STRUM_OK) {
             strum_periodic_peak peak = {0};
             if (periodic(r)) {
-                status = strum_periodic_peak_find(s->responses, r->multiples, r->motion_count,
-                                                  &peak);
+                status = strum_periodic_peak_find(s->responses, r->multiples,
+                                                  (size_t)r->motion_count, &peak);
                 json_put_number(json, "at_time_to_period", peak.phase / (2 * M_PI));
             }
             write_profile_points(json, s, peak.phase);
@@ -366,8 +367,8 @@ static strum_status write_resonances(json_writer *json, const forced_request *r,
 }
 
 /* The worst differences from shooting at one frequency so far. */
-static strum_status compare_at(solving *s, double frequency_ratio, double *tension,
-                               double *displacement, strum_error *fault)
+static strum_status compare_at(solving *s, double frequency_ratio, const strum_options *options,
+                               double *tension, double *displacement, strum_error *fault)
 {
     const forced_request *r = s->r;
     strum_status status = solve_at(s, frequency_ratio);
@@ -375,8 +376,7 @@ static strum_status compare_at(solving *s, double frequency_ratio, double *tensi
         return STRUM_OK; /* a resonance has no answer to compare */
     for (int m = 0; m < r->motion_count && status == STRUM_OK; m++) {
         double dt, dx;
-        status = strum_forced_compare(
-            s->responses[m], frequency_ratio / r->in.ratio * r->multiples[m], &dt, &dx, fault);
+        status = strum_response_verify(s->responses[m], options, &dt, &dx, fault);
         *tension = fmax(*tension, dt);
         *displacement = fmax(*displacement, dx);
     }
@@ -410,17 +410,20 @@ static strum_status count_modes(const forced_request *r, const strum_resonance *
 }
 
 static strum_status write_verification(json_writer *json, solving *s,
-                                       const strum_resonance *list, int count,
+                                       const strum_resonance *list, int count, const answer *a,
                                        strum_error *fault)
 {
+    const strum_options options = answer_options(a);
     const forced_request *r = s->r;
     double tension = 0, displacement = 0;
     strum_status status = STRUM_OK;
     const int step = 1 + (forced_frequency_count(r) - 1) / VERIFIED_MAX;
     for (int i = 0; i < forced_frequency_count(r) && status == STRUM_OK; i += step)
-        status = compare_at(s, forced_frequency_at(r, i), &tension, &displacement, fault);
+        status =
+            compare_at(s, forced_frequency_at(r, i), &options, &tension, &displacement, fault);
     for (size_t i = 0; i < r->profiles_at.count && status == STRUM_OK; i++)
-        status = compare_at(s, r->profiles_at.items[i], &tension, &displacement, fault);
+        status =
+            compare_at(s, r->profiles_at.items[i], &options, &tension, &displacement, fault);
     int expected;
     if (status == STRUM_OK)
         status = count_modes(r, list, count, &expected, fault);
@@ -430,7 +433,8 @@ static strum_status write_verification(json_writer *json, solving *s,
     json_open_object(json);
     json_put_string(
         json, "method",
-        "shooting of the first-order system (Runge-Kutta 8), at profiles and up to 9 "
+        "shooting of the first-order system (extrapolated midpoint rule), at profiles and up "
+        "to 9 "
         "frequencies of the curve; natural frequencies counted by the displacement form");
     json_put_number(json, "max_relative_difference", tension);
     json_put_integer(json, "modes_expected", expected);
@@ -445,7 +449,7 @@ bool forced_answer(const void *data, answer *a)
     const forced_request *r = data;
     solving s;
     strum_error fault = {0};
-    bool good = solving_make(&s, r, a->problem);
+    bool good = solving_make(&s, r, a);
     strum_resonance *list = calloc(2 * STRUM_MODES_MAX, sizeof *list);
     if (good && list == NULL) {
         problem_out_of_memory(a->problem);
@@ -461,15 +465,18 @@ bool forced_answer(const void *data, answer *a)
     json_open_object(json);
     cable_write_geometry(json, &r->in);
     if (good) {
-        const int count =
-            strum_forced_resonances(s.forced, &r->motions[0], list, 2 * STRUM_MODES_MAX);
-        strum_status status = write_curve(json, &s, a);
+        size_t found = 0;
+        strum_status status = strum_forced_resonances(s.forced, &r->motions[0], list,
+                                                      2 * STRUM_MODES_MAX, &found);
+        const int count = (int)found;
+        if (status == STRUM_OK)
+            status = write_curve(json, &s, a);
         if (status == STRUM_OK)
             status = write_resonances(json, r, list, count, a);
         if (status == STRUM_OK && r->profiles_at.count > 0)
             status = write_profiles(json, &s);
         if (status == STRUM_OK && r->verify)
-            status = write_verification(json, &s, list, count, &fault);
+            status = write_verification(json, &s, list, count, a, &fault);
         if (status != STRUM_OK)
             cable_refuse(&fault, status, a->problem);
         good = status == STRUM_OK;

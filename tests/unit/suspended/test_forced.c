@@ -5,6 +5,9 @@
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
 
+#include <string.h>
+#include <time.h>
+
 #include "check.h"
 
 #include <complex.h>
@@ -41,21 +44,23 @@ static void responses_agree_with_shooting(void **state)
         const double highest = uniform(0.1, 12) / cable.mu;
         strum_forced *forced;
         strum_error fault;
-        if (strum_forced_make(&cable, highest, true, true, &forced, &fault) != STRUM_OK)
+        if (strum_forced_solve(&(strum_forced_params){cable, highest, true, true}, NULL,
+                               &forced, &fault) != STRUM_OK)
             fail_msg("%s", fault.reason);
-        strum_response *response = strum_response_make(forced);
+        strum_response *response;
+        assert_int_equal(strum_response_make(forced, &response, NULL), STRUM_OK);
         const strum_end_motion motion = {uniform(-1, 1), CMPLX(uniform(-1, 1), i % 2),
                                          uniform(-1, 1)};
         for (int j = 0; j < 3; j++) {
             const double frequency = highest * uniform(0.001, 1);
             strum_forced_point shot[9];
             double largest[4] = {0}, worst[4] = {0};
-            if (strum_forced_solve(forced, frequency, &motion, response, NULL) != STRUM_OK)
+            if (strum_response_solve(response, frequency, &motion, NULL) != STRUM_OK)
                 continue;
             for (int k = 0; k < 9; k++)
                 shot[k].chi = cable.chi_m + cable.mu * (k / 4.0 - 1);
-            assert_int_equal(strum_forced_shoot(&cable, frequency, &motion, shot, 9, NULL),
-                             STRUM_OK);
+            assert_int_equal(
+                strum_forced_shoot(&cable, frequency, &motion, shot, 9, NULL, NULL), STRUM_OK);
             for (int k = 0; k < 9; k++) {
                 strum_forced_point at;
                 strum_response_at(response, shot[k].chi, &at);
@@ -77,8 +82,8 @@ static void responses_agree_with_shooting(void **state)
                          cable.eta_t, cable.eta_n, frequency, worst[0] / moved,
                          worst[1] / moved, worst[2] / largest[2], worst[3] / largest[3]);
         }
-        strum_response_free(&response);
-        strum_forced_free(&forced);
+        strum_response_free(response);
+        strum_forced_free(forced);
     }
 }
 
@@ -90,11 +95,13 @@ static void peak_is_the_largest(void **state)
         const strum_cable cable = random_cable();
         const double highest = uniform(1, 15) / cable.mu;
         strum_forced *forced;
-        assert_int_equal(strum_forced_make(&cable, highest, true, false, &forced, NULL),
+        assert_int_equal(strum_forced_solve(&(strum_forced_params){cable, highest, true, false},
+                                            NULL, &forced, NULL),
                          STRUM_OK);
-        strum_response *response = strum_response_make(forced);
+        strum_response *response;
+        assert_int_equal(strum_response_make(forced, &response, NULL), STRUM_OK);
         const strum_end_motion motion = {uniform(-1, 1), uniform(-1, 1), 0};
-        if (strum_forced_solve(forced, highest, &motion, response, NULL) == STRUM_OK) {
+        if (strum_response_solve(response, highest, &motion, NULL) == STRUM_OK) {
             strum_peak peak;
             strum_forced_point at;
             double largest = 0;
@@ -109,8 +116,8 @@ static void peak_is_the_largest(void **state)
             check_relative(cabs(at.tension), peak.tension, 1e-11);
             check_absolute(cos(peak.phase), creal(at.tension) / cabs(at.tension), 1e-7);
         }
-        strum_response_free(&response);
-        strum_forced_free(&forced);
+        strum_response_free(response);
+        strum_forced_free(forced);
     }
 }
 
@@ -126,8 +133,11 @@ static void frequency_zero_is_the_difference_of_equilibria(void **state)
     const double a = span / base.span;
     const strum_cable cable = {.chi_m = base.chi_m, .mu = base.mu, .mass_t = 1, .mass_n = 1};
     strum_forced *forced;
-    assert_int_equal(strum_forced_make(&cable, 0, true, false, &forced, NULL), STRUM_OK);
-    strum_response *response = strum_response_make(forced);
+    assert_int_equal(
+        strum_forced_solve(&(strum_forced_params){cable, 0, true, false}, NULL, &forced, NULL),
+        STRUM_OK);
+    strum_response *response;
+    assert_int_equal(strum_response_make(forced, &response, NULL), STRUM_OK);
     for (int direction = 0; direction < 2; direction++) {
         const double dx = direction == 0 ? step : 0, dy = step - dx;
         assert_int_equal(
@@ -143,7 +153,7 @@ static void frequency_zero_is_the_difference_of_equilibria(void **state)
             (2 * step / a);
         const double chi_2 = base.chi_m + base.mu, c = 1 / cosh(chi_2), s = tanh(chi_2);
         const strum_end_motion motion = {direction == 0 ? c : s, direction == 0 ? -s : c, 0};
-        assert_int_equal(strum_forced_solve(forced, 0, &motion, response, NULL), STRUM_OK);
+        assert_int_equal(strum_response_solve(response, 0, &motion, NULL), STRUM_OK);
         for (int k = 0; k <= 4; k++) {
             const double chi = base.chi_m + base.mu * (k / 2.0 - 1);
             strum_forced_point at;
@@ -151,8 +161,8 @@ static void frequency_zero_is_the_difference_of_equilibria(void **state)
             check_absolute(creal(at.tension), fx / cosh(chi) + fy * tanh(chi), 1e-7);
         }
     }
-    strum_response_free(&response);
-    strum_forced_free(&forced);
+    strum_response_free(response);
+    strum_forced_free(forced);
 }
 
 /* Resonances are the natural frequencies; beside one, |T| (omega/omega_n - 1) tends to the
@@ -163,11 +173,16 @@ static void resonances_are_natural_frequencies(void **state)
     const strum_cable cable = {
         .chi_m = 0.436, .mu = 0.803, .mass_t = 1, .mass_n = 1.3, .kappa_t = 1e-3};
     strum_forced *forced;
-    assert_int_equal(strum_forced_make(&cable, 12, true, true, &forced, NULL), STRUM_OK);
-    strum_response *response = strum_response_make(forced);
+    assert_int_equal(
+        strum_forced_solve(&(strum_forced_params){cable, 12, true, true}, NULL, &forced, NULL),
+        STRUM_OK);
+    strum_response *response;
+    assert_int_equal(strum_response_make(forced, &response, NULL), STRUM_OK);
     const strum_end_motion motion = {0.3, -0.2, 1};
     strum_resonance list[64], met;
-    const int count = strum_forced_resonances(forced, &motion, list, 64);
+    size_t found;
+    assert_int_equal(strum_forced_resonances(forced, &motion, list, 64, &found), STRUM_OK);
+    const int count = (int)found;
     for (int plane = 0; plane < 2; plane++) {
         strum_spectrum *spectrum;
         int modes = 0;
@@ -190,24 +205,26 @@ static void resonances_are_natural_frequencies(void **state)
             continue;
         strum_peak peak;
         assert_int_equal(
-            strum_forced_solve(forced, list[i].frequency * (1 + 1e-6), &motion, response, NULL),
+            strum_response_solve(response, list[i].frequency * (1 + 1e-6), &motion, NULL),
             STRUM_OK);
         strum_response_peak(response, &peak);
         check_relative(peak.tension * 1e-6, list[i].residue, 2e-2);
-        assert_int_equal(strum_forced_solve(forced, list[i].frequency, &motion, response, &met),
+        assert_int_equal(strum_response_solve(response, list[i].frequency, &motion, &met),
                          STRUM_ERR_METHOD);
         check_relative(met.frequency, list[i].frequency, 1e-12);
     }
-    strum_response_free(&response);
-    strum_forced_free(&forced);
+    strum_response_free(response);
+    strum_forced_free(forced);
     strum_cable damped = cable;
     damped.eta_t = damped.eta_n = 0.01;
-    assert_int_equal(strum_forced_make(&damped, 12, true, false, &forced, NULL), STRUM_OK);
-    response = strum_response_make(forced);
-    assert_int_equal(strum_forced_solve(forced, list[0].frequency, &motion, response, NULL),
+    assert_int_equal(strum_forced_solve(&(strum_forced_params){damped, 12, true, false}, NULL,
+                                        &forced, NULL),
                      STRUM_OK);
-    strum_response_free(&response);
-    strum_forced_free(&forced);
+    assert_int_equal(strum_response_make(forced, &response, NULL), STRUM_OK);
+    assert_int_equal(strum_response_solve(response, list[0].frequency, &motion, NULL),
+                     STRUM_OK);
+    strum_response_free(response);
+    strum_forced_free(forced);
 }
 
 /* Pulled sideways slowly: statics out of plane of an elastic profile is W_chi = (1 + kappa cosh
@@ -225,10 +242,13 @@ static void slow_sideways_motion_is_straight_in_plan(void **state)
                                .mass_t = 1,
                                .mass_n = 1};
     strum_forced *forced;
-    assert_int_equal(strum_forced_make(&cable, 0, false, true, &forced, NULL), STRUM_OK);
-    strum_response *response = strum_response_make(forced);
+    assert_int_equal(
+        strum_forced_solve(&(strum_forced_params){cable, 0, false, true}, NULL, &forced, NULL),
+        STRUM_OK);
+    strum_response *response;
+    assert_int_equal(strum_response_make(forced, &response, NULL), STRUM_OK);
     const strum_end_motion motion = {0, 0, 1};
-    assert_int_equal(strum_forced_solve(forced, 0, &motion, response, NULL), STRUM_OK);
+    assert_int_equal(strum_response_solve(response, 0, &motion, NULL), STRUM_OK);
     for (int i = 0; i <= 10; i++) {
         const double chi = c.chi_m + c.mu * (i / 5.0 - 1);
         double x, y;
@@ -237,8 +257,8 @@ static void slow_sideways_motion_is_straight_in_plan(void **state)
         strum_response_at(response, chi, &at);
         check_absolute(creal(at.out_of_plane), x / c.span, 1e-12);
     }
-    strum_response_free(&response);
-    strum_forced_free(&forced);
+    strum_response_free(response);
+    strum_forced_free(forced);
 }
 
 /* A sum of harmonics never exceeds its peak, and takes that value at the phase that is named.
@@ -248,15 +268,17 @@ static void periodic_peak_is_the_largest(void **state)
     (void)state;
     const strum_cable cable = {.chi_m = 0.2, .mu = 0.9, .mass_t = 1, .mass_n = 1};
     strum_forced *forced;
-    assert_int_equal(strum_forced_make(&cable, 6, true, false, &forced, NULL), STRUM_OK);
+    assert_int_equal(
+        strum_forced_solve(&(strum_forced_params){cable, 6, true, false}, NULL, &forced, NULL),
+        STRUM_OK);
     const int multiples[3] = {1, 2, 5};
     const strum_end_motion motions[3] = {
         {0.01, 0, 0}, {0, 0.004, 0}, {CMPLX(0.001, 0.002), 0, 0}};
     strum_response *responses[3];
     for (int k = 0; k < 3; k++) {
-        responses[k] = strum_response_make(forced);
+        assert_int_equal(strum_response_make(forced, &responses[k], NULL), STRUM_OK);
         assert_int_equal(
-            strum_forced_solve(forced, 1.1 * multiples[k], &motions[k], responses[k], NULL),
+            strum_response_solve(responses[k], 1.1 * multiples[k], &motions[k], NULL),
             STRUM_OK);
     }
     strum_periodic_peak peak;
@@ -283,10 +305,10 @@ static void periodic_peak_is_the_largest(void **state)
         strum_forced_point at;
         strum_response_at(responses[k], peak.chi, &at);
         there += creal(at.tension * cexp(CMPLX(0, multiples[k] * peak.phase)));
-        strum_response_free(&responses[k]);
+        strum_response_free(responses[k]);
     }
     check_relative(there, peak.tension, 1e-9);
-    strum_forced_free(&forced);
+    strum_forced_free(forced);
 }
 
 static void what_cannot_be_forced_is_refused(void **state)
@@ -295,24 +317,121 @@ static void what_cannot_be_forced_is_refused(void **state)
     strum_cable cable = {.mu = 1, .mass_t = 1, .mass_n = 1};
     strum_forced *forced = NULL;
     strum_error fault;
-    assert_int_equal(strum_forced_make(&cable, -1, true, false, &forced, &fault),
+    assert_int_equal(strum_forced_solve(&(strum_forced_params){cable, -1, true, false}, NULL,
+                                        &forced, &fault),
                      STRUM_ERR_RANGE);
-    assert_int_equal(strum_forced_make(&cable, NAN, true, false, &forced, &fault),
+    assert_int_equal(strum_forced_solve(&(strum_forced_params){cable, NAN, true, false}, NULL,
+                                        &forced, &fault),
                      STRUM_ERR_RANGE);
-    assert_int_equal(strum_forced_make(&cable, 1e4, true, false, &forced, &fault),
+    assert_int_equal(strum_forced_solve(&(strum_forced_params){cable, 1e4, true, false}, NULL,
+                                        &forced, &fault),
                      STRUM_ERR_RANGE);
     assert_null(forced);
     cable.mu = 0;
-    assert_int_equal(strum_forced_make(&cable, 1, true, false, &forced, &fault),
+    assert_int_equal(strum_forced_solve(&(strum_forced_params){cable, 1, true, false}, NULL,
+                                        &forced, &fault),
                      STRUM_ERR_RANGE);
     cable.mu = 1;
-    assert_int_equal(strum_forced_make(&cable, 1, true, false, &forced, &fault), STRUM_OK);
-    strum_response *response = strum_response_make(forced);
+    assert_int_equal(strum_forced_solve(&(strum_forced_params){cable, 1, true, false}, NULL,
+                                        &forced, &fault),
+                     STRUM_OK);
+    strum_response *response;
+    assert_int_equal(strum_response_make(forced, &response, NULL), STRUM_OK);
     const strum_end_motion motion = {1, 0, 0};
-    assert_int_equal(strum_forced_solve(forced, 1.5, &motion, response, NULL), STRUM_ERR_RANGE);
-    assert_int_equal(strum_forced_solve(forced, -1, &motion, response, NULL), STRUM_ERR_RANGE);
-    strum_response_free(&response);
-    strum_forced_free(&forced);
+    assert_int_equal(strum_response_solve(response, 1.5, &motion, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_response_solve(response, -1, &motion, NULL), STRUM_ERR_RANGE);
+    strum_response_free(response);
+    strum_forced_free(forced);
+}
+
+/* A response keeps what it needs of its system, whichever is freed first (seen by
+ * AddressSanitizer). */
+static void a_response_outlives_its_system(void **state)
+{
+    (void)state;
+    const strum_forced_params params = {{.mu = 1, .mass_t = 1, .mass_n = 1}, 3, true, false};
+    const strum_end_motion motion = {0.01, 0, 0};
+    strum_forced *forced;
+    strum_response *first, *second;
+    strum_peak right, got;
+    assert_int_equal(strum_forced_solve(&params, NULL, &forced, NULL), STRUM_OK);
+    assert_int_equal(strum_response_make(forced, &first, NULL), STRUM_OK);
+    assert_int_equal(strum_response_make(forced, &second, NULL), STRUM_OK);
+    assert_int_equal(strum_response_solve(first, 1.5, &motion, NULL), STRUM_OK);
+    strum_response_peak(first, &right);
+    strum_forced_free(forced);
+    strum_response_free(first);
+    assert_int_equal(strum_response_solve(second, 1.5, &motion, NULL), STRUM_OK);
+    strum_response_peak(second, &got);
+    assert_memory_equal(&got, &right, sizeof got);
+    strum_response_free(second);
+}
+
+static double cpu_s(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* However high the frequency, the second method ends: within its steps, or when told to. */
+static void shooting_is_bounded(void **state)
+{
+    (void)state;
+    const strum_cable cable = {.mu = 1, .mass_t = 1, .mass_n = 1};
+    const strum_end_motion motion = {0.01, 0.01, 0.01};
+    strum_forced_point at = {.chi = 0};
+    strum_error fault = {0};
+    const double high[] = {1e5, 1e6, 1e12, 1e160, 1e300};
+    for (size_t i = 0; i < sizeof high / sizeof *high; i++) {
+        const double before = cpu_s();
+        assert_int_equal(strum_forced_shoot(&cable, high[i], &motion, &at, 1, NULL, &fault),
+                         STRUM_ERR_ACCURACY);
+        assert_non_null(strstr(fault.reason, "steps"));
+        assert_true(cpu_s() - before < 5); /* 20,000 steps, under any sanitizer */
+    }
+    assert_int_equal(strum_forced_shoot(&cable, INFINITY, &motion, &at, 1, NULL, &fault),
+                     STRUM_ERR_RANGE);
+    assert_int_equal(fault.argument, STRUM_FORCED_ARG_FREQUENCY);
+    const strum_options few = {.work_max = 1000};
+    assert_int_equal(strum_forced_shoot(&cable, 1e6, &motion, &at, 1, &few, &fault),
+                     STRUM_ERR_WORK);
+}
+
+typedef struct stop {
+    long asked, after;
+} stop;
+
+static bool stopped(void *context)
+{
+    stop *s = context;
+    return ++s->asked > s->after;
+}
+
+/* Cancelled at each place in turn where it asks: no answer, nothing left behind. */
+static void a_solve_can_be_stopped(void **state)
+{
+    (void)state;
+    const strum_forced_params params = {
+        {.chi_m = 1, .mu = 2, .mass_t = 1, .mass_n = 1, .eta_n = 0.3}, 20, true, true};
+    strum_error fault;
+    stop s = {.after = 0};
+    const strum_options options = {stopped, &s, 0};
+    for (;; s.after++) {
+        strum_forced *forced;
+        s.asked = 0;
+        const strum_status status = strum_forced_solve(&params, &options, &forced, &fault);
+        if (status == STRUM_OK) {
+            strum_forced_free(forced);
+            break;
+        }
+        assert_int_equal(status, STRUM_ERR_CANCELLED);
+        assert_null(forced);
+    }
+    assert_true(s.after >= 1);
+    strum_forced *forced;
+    const strum_options little = {.work_max = 1};
+    assert_int_equal(strum_forced_solve(&params, &little, &forced, &fault), STRUM_ERR_WORK);
 }
 
 int main(void)
@@ -324,6 +443,9 @@ int main(void)
         cmocka_unit_test(peak_is_the_largest),
         cmocka_unit_test(frequency_zero_is_the_difference_of_equilibria),
         cmocka_unit_test(resonances_are_natural_frequencies),
+        cmocka_unit_test(a_response_outlives_its_system),
+        cmocka_unit_test(shooting_is_bounded),
+        cmocka_unit_test(a_solve_can_be_stopped),
         cmocka_unit_test(slow_sideways_motion_is_straight_in_plan),
         cmocka_unit_test(periodic_peak_is_the_largest),
         cmocka_unit_test(what_cannot_be_forced_is_refused),

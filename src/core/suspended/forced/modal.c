@@ -122,18 +122,28 @@ static strum_status make_samples(strum_forced *f)
     return STRUM_OK;
 }
 
-static strum_status make_at_size(strum_forced *f, int size)
+/* Estimated microseconds of the eigenproblem of n unknowns. */
+static double part_us(double n)
+{
+    return 20 + 2.5e-3 * n * n * n;
+}
+
+static strum_status make_at_size(strum_forced *f, int size, work *w)
 {
     const bool level = f->cable.chi_m == 0;
     strum_status status = STRUM_OK;
     f->size = size;
     f->part_count = f->in_plane ? (level ? 2 : 1) : 0;
-    for (int i = 0; i < f->part_count && status == STRUM_OK; i++)
+    for (int i = 0; i < f->part_count && status == STRUM_OK; i++) {
+        status = work_spend(w, part_us(level ? size : 2.0 * size));
+        if (status != STRUM_OK)
+            return status;
         status = make_part(&f->cable, &f->coordinate,
                            !level   ? STRUM_NO_SYMMETRY
                            : i == 0 ? STRUM_SYMMETRIC
                                     : STRUM_ANTISYMMETRIC,
                            size, &f->memory, &f->parts[i]);
+    }
     if (status == STRUM_OK && f->out_of_plane)
         status = forced_out_of_plane_make(f);
     return status == STRUM_OK ? make_samples(f) : status;
@@ -154,16 +164,14 @@ static double tail_of(const double *v, int size)
  * resonance. */
 static strum_status tail(const strum_forced *f, double *error)
 {
-    strum_response *r = strum_response_make(f);
-    if (r == NULL)
-        return STRUM_ERR_MEMORY;
+    strum_response *r;
+    strum_status status = strum_response_make(f, &r, NULL);
     *error = 0;
-    strum_status status = STRUM_OK;
     for (int direction = 0; direction < 2 && status == STRUM_OK; direction++) {
         const strum_end_motion motion = {direction == 0, direction == 1, f->out_of_plane};
         double frequency = f->frequency_max;
         do
-            status = strum_forced_solve(f, frequency, &motion, r, NULL);
+            status = strum_response_solve(r, frequency, &motion, NULL);
         while (status == STRUM_ERR_METHOD && (frequency *= 1 - 1e-3) > 0);
         for (int i = 0; i < 2 && f->in_plane; i++)
             for (int half = 0; half < 2; half++)
@@ -171,12 +179,13 @@ static strum_status tail(const strum_forced *f, double *error)
         if (f->out_of_plane)
             *error = fmax(*error, tail_of((const double *)r->w, 2 * f->size));
     }
-    strum_response_free(&r);
+    strum_response_free(r);
     return status;
 }
 
 /* Grows the size in one coordinate until the tail is short enough. */
-static strum_status grow(strum_forced *f, mapping along, int modes, strum_error *fault)
+static strum_status grow(strum_forced *f, mapping along, int modes, work *w,
+                         strum_error *error_out)
 {
     const strum_plane plane = f->in_plane ? STRUM_IN_PLANE : STRUM_OUT_OF_PLANE;
     double cosh_chi, c, s, error = INFINITY, before = INFINITY;
@@ -187,11 +196,13 @@ static strum_status grow(strum_forced *f, mapping along, int modes, strum_error 
     f->end[1][0] = -s;
     double size = 1.4 * spectrum_first_size(&f->cable, &f->coordinate, plane, modes) + 4;
     for (; size < SPECTRUM_SIZE_MAX_QUADRATIC; size = 1.3 * size + 6) {
-        strum_status status = make_at_size(f, (int)size);
+        strum_status status = make_at_size(f, (int)size, w);
         if (status == STRUM_OK)
             status = tail(f, &error);
+        if (status == STRUM_ERR_CANCELLED || status == STRUM_ERR_WORK)
+            return work_error(w, error_out);
         if (status != STRUM_OK)
-            return error_set(fault, status, "%s", strum_status_text(status));
+            return error_set(error_out, status, "%s", strum_status_text(status));
         if (error < TAIL_MAX)
             return STRUM_OK;
         arena_free(&f->memory);
@@ -201,16 +212,16 @@ static strum_status grow(strum_forced *f, mapping along, int modes, strum_error 
         before = error;
     }
     if (isinf(error))
-        return error_set(fault, STRUM_ERR_ACCURACY,
+        return error_set(error_out, STRUM_ERR_ACCURACY,
                          "the response needs about %.0f unknowns a component; %d can be solved",
                          size, SPECTRUM_SIZE_MAX_QUADRATIC);
-    return error_set(fault, STRUM_ERR_ACCURACY,
+    return error_set(error_out, STRUM_ERR_ACCURACY,
                      "the last terms of the response are still %.1e of the first (%.0e is "
                      "promised) at up to %d unknowns a component",
                      error, TAIL_MAX, SPECTRUM_SIZE_MAX_QUADRATIC);
 }
 
-static strum_status make(strum_forced *f, strum_error *fault)
+static strum_status make(strum_forced *f, work *w, strum_error *fault)
 {
     double count = 2;
     for (int plane = 0; plane < 2; plane++)
@@ -223,43 +234,46 @@ static strum_status make(strum_forced *f, strum_error *fault)
                          ceil(count), STRUM_MODES_MAX);
     const strum_plane plane = f->in_plane ? STRUM_IN_PLANE : STRUM_OUT_OF_PLANE;
     const int modes = (int)ceil(count);
-    const strum_status status = grow(f, mapping_linear(&f->cable), modes, fault);
+    const strum_status status = grow(f, mapping_linear(&f->cable), modes, w, fault);
     const mapping other = spectrum_mapping(&f->cable, plane, modes);
-    return status == STRUM_ERR_ACCURACY && other.stretch != 0 ? grow(f, other, modes, fault)
+    return status == STRUM_ERR_ACCURACY && other.stretch != 0 ? grow(f, other, modes, w, fault)
                                                               : status;
 }
 
-strum_status strum_forced_make(const strum_cable *cable, double frequency_max, bool in_plane,
-                               bool out_of_plane, strum_forced **forced, strum_error *fault)
+strum_status strum_forced_solve(const strum_forced_params *params, const strum_options *options,
+                                strum_forced **forced, strum_error *error)
 {
     *forced = NULL;
-    strum_status status = spectrum_check_cable(cable, fault);
+    strum_status status = spectrum_check_cable(&params->cable, error);
     if (status != STRUM_OK)
         return status;
-    if (!(isfinite(frequency_max) && frequency_max >= 0))
-        return error_set(fault, STRUM_ERR_RANGE, "the frequency must not be negative");
+    if (!(isfinite(params->frequency_max) && params->frequency_max >= 0))
+        return error_at(error, STRUM_ERR_RANGE, STRUM_FORCED_ARG_FREQUENCY, STRUM_NO_INDEX,
+                        "the frequency must not be negative");
     strum_forced *f = calloc(1, sizeof *f);
     if (f == NULL)
-        return error_set(fault, STRUM_ERR_MEMORY, "out of memory");
-    f->cable = *cable;
-    f->frequency_max = frequency_max;
-    f->in_plane = in_plane;
-    f->out_of_plane = out_of_plane;
-    f->proportional = in_plane_proportional(cable);
-    status = make(f, fault);
-    if (status != STRUM_OK)
-        strum_forced_free(&f);
-    *forced = f;
+        return error_set(error, STRUM_ERR_MEMORY, "out of memory");
+    work w = work_begin(options);
+    f->references = 1;
+    f->cable = params->cable;
+    f->frequency_max = params->frequency_max;
+    f->in_plane = params->in_plane;
+    f->out_of_plane = params->out_of_plane;
+    f->proportional = in_plane_proportional(&params->cable);
+    status = make(f, &w, error);
+    if (status == STRUM_OK)
+        *forced = f;
+    else
+        strum_forced_free(f);
     return status;
 }
 
-void strum_forced_free(strum_forced **forced)
+void strum_forced_free(strum_forced *f)
 {
-    if (*forced != NULL) {
-        arena_free(&(*forced)->memory);
-        free(*forced);
-        *forced = NULL;
-    }
+    if (f == NULL || atomic_fetch_sub(&f->references, 1) > 1)
+        return;
+    arena_free(&f->memory);
+    free(f);
 }
 
 /* Puts one real part of a part's unknowns where the response keeps them, and their constants
@@ -335,10 +349,10 @@ static void note_resonance(const forced_part *p, int j, strum_resonance *at)
                                 .frequency = 1 / sqrt(p->mu[j])};
 }
 
-strum_status strum_forced_solve(const strum_forced *f, double frequency,
-                                const strum_end_motion *motion, strum_response *response,
-                                strum_resonance *at)
+strum_status strum_response_solve(strum_response *response, double frequency,
+                                  const strum_end_motion *motion, strum_resonance *at)
 {
+    const strum_forced *f = response->forced;
     if (!(frequency >= 0 && frequency <= f->frequency_max * (1 + 1e-12)))
         return STRUM_ERR_RANGE;
     const strum_cable *cable = &f->cable;
@@ -349,6 +363,7 @@ strum_status strum_forced_solve(const strum_forced *f, double frequency,
     /* nothing moves at frequency 0, so the static answer knows no damping */
     const bool modal = f->proportional || frequency < STATIC_BELOW;
     const double _Complex omega2 = modal ? -(s * s + s * cable->eta_t / cable->mass_t) : 1;
+    response->frequency = frequency;
     response->motion = *motion;
     response->scale = omega2;
     response->inverse_t =
@@ -406,34 +421,37 @@ static double residue(const forced_part *p, int j, const double _Complex d[2],
     return peak.tension * cabs(share) / (2 * p->mu[j]);
 }
 
-int strum_forced_resonances(const strum_forced *f, const strum_end_motion *motion,
-                            strum_resonance *list, int room)
+strum_status strum_forced_resonances(const strum_forced *f, const strum_end_motion *motion,
+                                     strum_resonance *list, size_t room, size_t *count)
 {
-    int count = 0;
-    strum_response *response = strum_response_make(f);
-    if (response == NULL)
-        return 0;
+    size_t n = 0;
+    strum_response *response;
+    *count = 0;
+    const strum_status status = strum_response_make(f, &response, NULL);
+    if (status != STRUM_OK)
+        return status;
     double _Complex d[2];
     for (int k = 0; k < 2; k++)
         d[k] = motion->tangential * f->end[0][k] + motion->normal * f->end[1][k];
     for (int i = 0; i < f->part_count; i++) {
         const forced_part *p = &f->parts[i];
-        for (int j = 0; j < p->part.count && count < room; j++) {
+        for (int j = 0; j < p->part.count && n < room; j++) {
             if (!(p->mu[j] > 0 && 1 / sqrt(p->mu[j]) <= f->frequency_max))
                 break;
-            note_resonance(p, j, &list[count]);
-            list[count++].residue = residue(p, j, d, response);
+            note_resonance(p, j, &list[n]);
+            list[n++].residue = residue(p, j, d, response);
         }
     }
-    for (int j = 0; f->out_of_plane && j < f->size - 1 && count < room; j++) {
-        list[count] = (strum_resonance){.plane = STRUM_OUT_OF_PLANE,
-                                        .frequency = forced_out_of_plane_frequency(f, j)};
-        if (!(list[count].frequency <= f->frequency_max))
+    for (int j = 0; f->out_of_plane && j < f->size - 1 && n < room; j++) {
+        list[n] = (strum_resonance){.plane = STRUM_OUT_OF_PLANE,
+                                    .frequency = forced_out_of_plane_frequency(f, j)};
+        if (!(list[n].frequency <= f->frequency_max))
             break;
-        list[count++].residue =
+        list[n++].residue =
             forced_out_of_plane_residue(f, j, motion->out_of_plane, response->table);
     }
-    strum_response_free(&response);
-    number(list, count, f->cable.chi_m == 0);
-    return count;
+    strum_response_free(response);
+    number(list, (int)n, f->cable.chi_m == 0);
+    *count = n;
+    return STRUM_OK;
 }

@@ -2,8 +2,11 @@
 #ifndef CORE_SUSPENDED_FORCED_MODAL_H
 #define CORE_SUSPENDED_FORCED_MODAL_H
 
+#include <stdatomic.h>
+
 #include <strum/forced.h>
 
+#include "core/numerics/work.h"
 #include "core/suspended/in_plane.h"
 
 /* One symmetry class of the in-plane problem: A f = mu K f, phi'K phi = 1. */
@@ -19,6 +22,7 @@ typedef struct forced_part {
 } forced_part;
 
 struct strum_forced {
+    atomic_uint references; /* the caller's, and one of each response */
     strum_cable cable;
     mapping coordinate;
     double frequency_max;
@@ -38,7 +42,8 @@ struct strum_forced {
 /* F = c + scale sum v_k q_k, X = (tt' inverse_t + nn' inverse_n) sum v_k p_k / (mu cosh chi).
  */
 struct strum_response {
-    const strum_forced *forced;
+    strum_forced *forced; /* a counted reference */
+    double frequency;
     strum_end_motion motion;
     bool real; /* every coefficient is */
     double _Complex constant[2], scale, inverse_t, inverse_n;

@@ -105,15 +105,15 @@ static double promise(const sum *s, int i, int j)
 }
 
 strum_status strum_periodic_peak_find(strum_response *const *responses, const int *multiples,
-                                      int count, strum_periodic_peak *peak)
+                                      size_t count, strum_periodic_peak *peak)
 {
     int highest = 1;
-    for (int k = 0; k < count; k++)
+    for (size_t k = 0; k < count; k++)
         highest = multiples[k] > highest ? multiples[k] : highest;
     const strum_forced *f = responses[0]->forced;
     sum s = {.responses = responses,
              .multiples = multiples,
-             .count = count,
+             .count = (int)count,
              .steps = STEPS_A_WAVE * highest,
              .samples = f->samples};
     arena a = {0};

@@ -2,21 +2,25 @@
 /* A forced response: its values along the cable and its largest tension. */
 #include <cblas.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/suspended/forced/modal.h"
 #include "core/numerics/peak.h"
 
-strum_response *strum_response_make(const strum_forced *f)
+strum_status strum_response_make(const strum_forced *f, strum_response **response,
+                                 strum_error *error)
 {
+    *response = NULL;
     strum_response *r = calloc(1, sizeof *r);
     if (r == NULL)
-        return NULL;
+        return error_set(error, STRUM_ERR_MEMORY, "out of memory");
     const size_t size = (size_t)f->size, samples = (size_t)f->samples;
     const size_t unknowns = f->part_count > 0 ? (size_t)f->parts[0].part.count + 1 : 0;
     const bool damped = f->part_count > 0 && !f->proportional;
-    r->forced = f;
+    r->forced = (strum_forced *)(uintptr_t)f; /* only its count changes */
+    atomic_fetch_add(&r->forced->references, 1);
     r->v[0][0] = arena_doubles(&r->memory, 4 * size);
     r->w = arena_alloc(&r->memory, size, sizeof *r->w);
     r->work = arena_doubles(&r->memory, 6 * size + 2);
@@ -24,21 +28,23 @@ strum_response *strum_response_make(const strum_forced *f)
     r->matrix =
         damped ? arena_alloc(&r->memory, (unknowns + 1) * unknowns, sizeof *r->matrix) : NULL;
     if (r->v[0][0] == NULL || r->w == NULL || r->work == NULL || r->table == NULL ||
-        (damped && r->matrix == NULL))
-        strum_response_free(&r);
-    else
-        for (size_t i = 1; i < 4; i++)
-            r->v[i / 2][i % 2] = r->v[0][0] + i * size;
-    return r;
+        (damped && r->matrix == NULL)) {
+        strum_response_free(r);
+        return error_set(error, STRUM_ERR_MEMORY, "out of memory");
+    }
+    for (size_t i = 1; i < 4; i++)
+        r->v[i / 2][i % 2] = r->v[0][0] + i * size;
+    *response = r;
+    return STRUM_OK;
 }
 
-void strum_response_free(strum_response **response)
+void strum_response_free(strum_response *response)
 {
-    if (*response != NULL) {
-        arena_free(&(*response)->memory);
-        free(*response);
-        *response = NULL;
-    }
+    if (response == NULL)
+        return;
+    arena_free(&response->memory);
+    strum_forced_free(response->forced);
+    free(response);
 }
 
 void response_of_mode(strum_response *r, const forced_part *p, int mode)

@@ -6,13 +6,12 @@
  * W. The combination that meets the motion of end 2 is the answer.
  */
 #include <complex.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
 #include <math.h>
 
 #include <strum/forced.h>
 
 #include "core/numerics/arena.h"
+#include "core/numerics/extrapolation.h"
 #include "core/suspended/forced/modal.h"
 
 /* X, F for two starting forces, then W and V: ten complex numbers. */
@@ -34,7 +33,7 @@ static void put(double *y, int i, double _Complex value)
     y[2 * i + 1] = cimag(value);
 }
 
-static int slope_at(double chi, const double y[], double dy[], void *data)
+static void slope_at(void *data, double chi, const double *y, double *dy)
 {
     const system_data *d = data;
     const double c = cosh(chi), t[2] = {1 / c, tanh(chi)}, n[2] = {-t[1], t[0]};
@@ -52,53 +51,67 @@ static int slope_at(double chi, const double y[], double dy[], void *data)
     }
     put(dy, 8, (1 + c * d->cable->kappa_n) * get(y, 9));
     put(dy, 9, c * d->a_n * get(y, 8));
-    return GSL_SUCCESS;
 }
 
-/* Integrates to each point in turn; `states` gets STATE doubles a point. */
-static int integrate(system_data *data, strum_forced_point *points, int count, double *states)
+/* A slope takes about so long. */
+#define SLOPE_US 0.2
+
+/* Integrates to each point in turn; `states` gets STATE doubles a point, and at end 2. */
+static strum_status integrate(system_data *data, const strum_forced_point *points, size_t count,
+                              double *states, work *w)
 {
+    /* displacements and forces of each start, then W, then V */
+    static const int block[STATE] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2,
+                                     2, 2, 3, 3, 3, 3, 4, 4, 5, 5};
     const strum_cable *cable = data->cable;
-    gsl_odeiv2_system system = {slope_at, NULL, STATE, data};
-    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd,
-                                                              1e-2 * cable->mu, 1e-14, 1e-12);
-    if (driver == NULL)
-        return GSL_ENOMEM;
+    extrapolation e = {.size = STATE,
+                       .slope = slope_at,
+                       .data = data,
+                       .block = block,
+                       .tolerance = 1e-13,
+                       .step = 1e-2 * cable->mu,
+                       .steps_max = STRUM_SHOOT_STEPS_MAX,
+                       .slope_us = SLOPE_US};
     double y[STATE] = {0}, chi = cable->chi_m - cable->mu;
     put(y, 2, 1);
     put(y, 7, 1);
     put(y, 9, 1);
-    int status = GSL_SUCCESS;
-    for (int i = 0; i < count && status == GSL_SUCCESS; i++) {
-        if (points[i].chi > chi)
-            status = gsl_odeiv2_driver_apply(driver, &chi, points[i].chi, y);
-        for (int j = 0; j < STATE; j++)
-            states[(size_t)i * STATE + (size_t)j] = y[j];
+    strum_status status = STRUM_OK;
+    for (size_t i = 0; i <= count && status == STRUM_OK; i++) {
+        const double to = i < count ? points[i].chi : cable->chi_m + cable->mu;
+        status = extrapolation_advance(&e, &chi, to, y, w);
+        for (size_t j = 0; j < STATE; j++)
+            states[i * STATE + j] = y[j];
     }
-    if (status == GSL_SUCCESS && chi < cable->chi_m + cable->mu)
-        status = gsl_odeiv2_driver_apply(driver, &chi, cable->chi_m + cable->mu, y);
-    for (int j = 0; j < STATE; j++)
-        states[(size_t)count * STATE + (size_t)j] = y[j];
-    gsl_odeiv2_driver_free(driver);
     return status;
 }
 
 strum_status strum_forced_shoot(const strum_cable *cable, double frequency,
                                 const strum_end_motion *motion, strum_forced_point *points,
-                                int count, strum_error *fault)
+                                size_t count, const strum_options *options, strum_error *error)
 {
+    if (!(isfinite(frequency) && frequency >= 0))
+        return error_at(error, STRUM_ERR_RANGE, STRUM_FORCED_ARG_FREQUENCY, STRUM_NO_INDEX,
+                        "the frequency must not be negative");
     const double _Complex s = CMPLX(0, frequency);
     system_data data = {cable, s * (cable->mass_t * s + cable->eta_t),
                         s * (cable->mass_n * s + cable->eta_n)};
     arena memory = {0};
-    double *states = arena_doubles(&memory, (size_t)(count + 1) * STATE);
+    work spent = work_begin(options);
+    double *states = arena_doubles(&memory, (count + 1) * STATE);
     if (states == NULL)
-        return error_set(fault, STRUM_ERR_MEMORY, "out of memory");
-    if (integrate(&data, points, count, states) != GSL_SUCCESS) {
+        return error_set(error, STRUM_ERR_MEMORY, "out of memory");
+    const strum_status status = integrate(&data, points, count, states, &spent);
+    if (status != STRUM_OK) {
         arena_free(&memory);
-        return error_set(fault, STRUM_ERR_ACCURACY, "the integration along the cable failed");
+        return status == STRUM_ERR_ACCURACY
+                   ? error_set(error, status,
+                               "the integration along the cable needs more than %d steps, or "
+                               "overflows",
+                               STRUM_SHOOT_STEPS_MAX)
+                   : work_error(&spent, error);
     }
-    const double *end = states + (size_t)count * STATE;
+    const double *end = states + count * STATE;
     const double chi_2 = cable->chi_m + cable->mu, c = cosh(chi_2);
     const double _Complex d[2] = {motion->tangential / c - motion->normal * tanh(chi_2),
                                   motion->tangential * tanh(chi_2) + motion->normal / c};
@@ -108,8 +121,8 @@ strum_status strum_forced_shoot(const strum_cable *cable, double frequency,
     const double _Complex k[2] = {(d[0] * x22 - d[1] * x12) / det,
                                   (d[1] * x11 - d[0] * x21) / det};
     const double _Complex w = motion->out_of_plane / get(end, 8);
-    for (int i = 0; i < count; i++) {
-        const double *y = states + (size_t)i * STATE, cosh_chi = cosh(points[i].chi);
+    for (size_t i = 0; i < count; i++) {
+        const double *y = states + i * STATE, cosh_chi = cosh(points[i].chi);
         const double t[2] = {1 / cosh_chi, tanh(points[i].chi)};
         double _Complex z[4]; /* X, F */
         for (int j = 0; j < 4; j++)
@@ -123,16 +136,16 @@ strum_status strum_forced_shoot(const strum_cable *cable, double frequency,
     return STRUM_OK;
 }
 
-strum_status strum_forced_compare(const strum_response *response, double frequency,
-                                  double *tension, double *displacement, strum_error *fault)
+strum_status strum_response_verify(const strum_response *response, const strum_options *options,
+                                   double *tension, double *displacement, strum_error *error)
 {
     enum { POINTS = 33 };
     strum_forced_point shot[POINTS], at;
     const strum_cable *cable = &response->forced->cable;
     for (int i = 0; i < POINTS; i++)
         shot[i].chi = cable->chi_m + cable->mu * (2.0 * i / (POINTS - 1) - 1);
-    const strum_status status =
-        strum_forced_shoot(cable, frequency, &response->motion, shot, POINTS, fault);
+    const strum_status status = strum_forced_shoot(
+        cable, response->frequency, &response->motion, shot, POINTS, options, error);
     double dt = 0, dx = 0, most_t = 0, most_x = 0;
     for (int i = 0; i < POINTS && status == STRUM_OK; i++) {
         strum_response_at(response, shot[i].chi, &at);

@@ -5,7 +5,8 @@
  * Debian 12's serial OpenBLAS (0.3.21, built without USE_LOCKING) picks a free buffer by a test
  * and a later store, under no lock: two threads that multiply at once can get the same one, and
  * wrong products. OpenBLAS calls its allocator through the dynamic linker, so that these two
- * functions of the same names take its place. tests/unit/suspended/test_threads.c fails without them.
+ * functions of the same names take its place in the daemon; libstrum leaves its host's alone.
+ * tests/unit/suspended/test_threads.c fails without them.
  * The threaded flavour is no way out: it starts threads before main, and more of them.
  */
 #include <pthread.h>
