@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* strumd: settings, start, wait for a signal, drain, stop. */
-#include <gsl/gsl_errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/signalfd.h>
@@ -24,8 +23,6 @@ static int serve(const settings *set)
      */
     pthread_sigmask(SIG_BLOCK, &ends, NULL);
     signal(SIGPIPE, SIG_IGN);
-    /* GSL's own handler aborts; its statuses are checked instead. */
-    gsl_set_error_handler_off();
     const int signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
     bool clean = false;
     if (server_start(&s, set, fault)) {

@@ -12,13 +12,14 @@
  */
 #include <strum/catenary.h>
 
+#include <assert.h>
+#include <float.h>
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_integration.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include <stddef.h>
 
+#include "core/numerics/gauss.h"
 #include "core/numerics/status.h"
 
 /*
@@ -115,6 +116,19 @@ static strum_status refuse_taut(strum_error *fault)
                      "the cable is too taut: its sag is below 1e-9 of the span");
 }
 
+typedef struct rising {
+    double (*f)(double, void *);
+    void *data;
+} rising;
+
+/* What is not finite is large: GSL takes other values for a fault, and ends its host. */
+static double finite_value(double x, void *data)
+{
+    const rising *r = data;
+    const double value = r->f(x, r->data);
+    return isfinite(value) ? value : value < 0 ? -DBL_MAX : DBL_MAX;
+}
+
 /* The mu at which `f` of log(mu), rising, passes 0. */
 static strum_status solve_mu(double (*f)(double, void *), void *data, double *mu,
                              strum_error *fault)
@@ -127,19 +141,19 @@ static strum_status solve_mu(double (*f)(double, void *), void *data, double *mu
                          STRUM_CHI_MAX);
     if (f(low, data) >= 0)
         return refuse_taut(fault);
-    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    if (solver == NULL)
-        return error_set(fault, STRUM_ERR_MEMORY, "out of memory");
-    gsl_function function = {f, data};
-    int status = gsl_root_fsolver_set(solver, &function, low, high);
+    /* GSL's steps on a state of ours: its own allocation would abort a host without memory. */
+    max_align_t state[16];
+    assert(gsl_root_fsolver_brent->size <= sizeof state);
+    rising r = {f, data};
+    gsl_function function = {finite_value, &r};
+    double left = low, right = high, root = low;
+    int status = gsl_root_fsolver_brent->set(state, &function, &root, left, right);
     for (int i = 0; i < 200 && status == GSL_SUCCESS; i++) {
-        status = gsl_root_fsolver_iterate(solver);
-        if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver),
-                                   gsl_root_fsolver_x_upper(solver), 1e-16, 0) == GSL_SUCCESS)
+        status = gsl_root_fsolver_brent->iterate(state, &function, &root, &left, &right);
+        if (fabs(left - right) < 1e-16)
             break;
     }
-    *mu = exp(gsl_root_fsolver_root(solver));
-    gsl_root_fsolver_free(solver);
+    *mu = exp(root);
     return status == GSL_SUCCESS
                ? STRUM_OK
                : error_set(fault, STRUM_ERR_INTERNAL, "the equilibrium was not found");
@@ -359,20 +373,17 @@ double strum_catenary_sag(const strum_catenary *c)
 strum_status strum_rayleigh_out_of_plane(const strum_catenary *c, double *frequency,
                                          strum_error *fault)
 {
-    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(128);
-    if (table == NULL)
-        return error_set(fault, STRUM_ERR_MEMORY, "out of memory");
+    double node[128], weight[128];
+    gauss_legendre(128, node, weight);
+    (void)fault; /* the formula holds for every equilibrium */
     const double parallel = asinh(c->rise / c->span), sag = strum_catenary_sag(c);
     double first = 0, second = 0;
     for (size_t i = 0; i < 128; i++) {
-        double chi, w;
-        (void)gsl_integration_glfixed_point(c->chi_m - c->mu, c->chi_m + c->mu, i, &chi, &w,
-                                            table);
+        const double chi = c->chi_m + c->mu * node[i], w = c->mu * weight[i];
         const double z = sag - above_tangent(c->kappa, chi, parallel);
         first += w * cosh(chi) * z;
         second += w * cosh(chi) * z * z;
     }
-    gsl_integration_glfixed_table_free(table);
     *frequency = sqrt(first / second);
     return STRUM_OK;
 }

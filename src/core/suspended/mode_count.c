@@ -13,10 +13,10 @@
  * n = floor(sum/pi) or one less, and det X has the sign of (-1)^n.
  */
 #include <complex.h>
-#include <gsl/gsl_integration.h>
 #include <math.h>
 #include <string.h>
 
+#include "core/numerics/gauss.h"
 #include "core/numerics/legendre.h"
 #include "core/suspended/in_plane.h"
 
@@ -79,17 +79,12 @@ static double choose_units(counting *k)
     return 2 * sqrt(largest[3] * largest[2]);
 }
 
-static strum_status make_rule(counting *k)
+static void make_rule(counting *k)
 {
-    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(NODES);
-    if (table == NULL)
-        return STRUM_ERR_MEMORY;
+    gauss_legendre(NODES, k->node, k->weight);
     double p[NODES][NODES], q[NODES][NODES];
-    for (size_t i = 0; i < NODES; i++) {
-        (void)gsl_integration_glfixed_point(-1, 1, i, &k->node[i], &k->weight[i], table);
+    for (size_t i = 0; i < NODES; i++)
         legendre_at(k->node[i], NODES, p[i], q[i]);
-    }
-    gsl_integration_glfixed_table_free(table);
     for (int i = 0; i < NODES; i++)
         for (int j = 0; j < NODES; j++) {
             double sum = 0.5 * (1 + k->node[i]); /* the constant: q_0 lacks it */
@@ -97,7 +92,6 @@ static strum_status make_rule(counting *k)
                 sum += q[i][m] * p[j][m];
             k->integral[i][j] = k->weight[j] * sum;
         }
-    return STRUM_OK;
 }
 
 /* State: columns (F_0, F_1, X_0, X_1) of the two solutions. */
@@ -166,8 +160,7 @@ strum_status strum_modes_count(const strum_cable *cable, double frequency, int *
           cable->mass_t > 0 && cable->mass_n > 0 && cable->kappa_t >= 0 && cable->kappa_n >= 0))
         return error_set(fault, STRUM_ERR_RANGE, "a property of the cable is out of range");
     counting k = {.cable = cable, .along = mapping_linear(cable), .frequency = frequency};
-    if (make_rule(&k) != STRUM_OK)
-        return error_set(fault, STRUM_ERR_MEMORY, "out of memory");
+    make_rule(&k);
     const double phases = 2 * frequency * choose_units(&k);
     const double needed = fmax(phases / STEP_PHASE, 2 * cable->mu / STEP_CHI);
     if (!(needed < STEPS_MAX))

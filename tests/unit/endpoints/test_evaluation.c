@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One asking from body or query to answer, also with every allocation failing in turn. */
-#include <gsl/gsl_errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -430,7 +429,6 @@ static void every_allocation_may_fail(void **state)
 static void endpoints_survive_failing_memory(void **state)
 {
     (void)state;
-    gsl_set_error_handler_off();
     const endpoint *e = endpoint_find("/v1/catenary/frequencies");
     assert_non_null(e);
     fail_each(e,

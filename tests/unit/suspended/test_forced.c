@@ -2,7 +2,6 @@
 /* Forced motion against shooting, statics, resonances and sums of harmonics. */
 #include <strum/strum.h>
 
-#include <gsl/gsl_errno.h>
 #include <stdlib.h>
 
 #include <string.h>
@@ -436,7 +435,6 @@ static void a_solve_can_be_stopped(void **state)
 
 int main(void)
 {
-    (void)gsl_set_error_handler_off();
     srand(1976);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(responses_agree_with_shooting),
