@@ -7,7 +7,6 @@
  * is another mode's is counted (outside the time taken).
  */
 #include <complex.h>
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <strum/strum.h>
@@ -210,7 +209,6 @@ static void report(void *data)
 
 int main(void)
 {
-    (void)gsl_set_error_handler_off();
     const double us = bench_median_us(optimum, NULL, 7);
     const double his = bench_median_us(report, NULL, 3);
     printf(

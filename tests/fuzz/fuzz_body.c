@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A request's body: reader, schema engine, every endpoint and its mechanics. */
-#include <gsl/gsl_errno.h>
 
 #include "asking_check.h"
 #include "mutate.h"
@@ -10,7 +9,6 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
     (void)argc;
     (void)argv;
-    gsl_set_error_handler_off(); /* as the daemon does */
     return 0;
 }
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A query string: name=value pairs joined by "&", as libmicrohttpd hands them over decoded. */
-#include <gsl/gsl_errno.h>
 
 #include "asking_check.h"
 #include "mutate.h"
@@ -12,7 +11,6 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
     (void)argc;
     (void)argv;
-    gsl_set_error_handler_off(); /* as the daemon does */
     return 0;
 }
 

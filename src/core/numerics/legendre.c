@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/numerics/legendre.h"
 
-#include <gsl/gsl_integration.h>
 #include <math.h>
+
+#include "core/numerics/gauss.h"
 
 void legendre_at(double x, int count, double *p, double *q)
 {
@@ -45,61 +46,13 @@ void legendre_at_with(const double *factors, double x, int count, double *p, dou
     }
 }
 
-#define GAUSS_TABULATED_MAX 1024
-
-/* Sizes whose nodes GSL holds as constants; others cost it a Newton iteration per node. */
-static size_t gauss_size(int needed)
-{
-    static const int tabulated[] = {32, 64, 96, 128, 256, 512, GAUSS_TABULATED_MAX};
-    for (size_t i = 0; i < sizeof tabulated / sizeof *tabulated; i++)
-        if (needed <= tabulated[i])
-            return (size_t)tabulated[i];
-    return (size_t)(needed + needed % 2);
-}
-
-/* GSL computes the nodes that it does not hold as constants to 1e-10 only: Newton's method
- * mends one. */
-static void polish_node(int n, double *x, double *w)
-{
-    double slope = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        double before = 0, now = 1; /* P_{k-1}, P_k */
-        for (int k = 0; k < n; k++) {
-            const double next = ((2 * k + 1) * *x * now - k * before) / (k + 1);
-            before = now;
-            now = next;
-        }
-        slope = n * (before - *x * now) / ((1 - *x) * (1 + *x));
-        *x -= now / slope;
-    }
-    *w = 2 / ((1 - *x) * (1 + *x) * slope * slope);
-}
-
-/* Nodes and weights; of the half x > 0 with doubled weights. */
-static strum_status gauss_nodes(size_t n, bool half, legendre *b)
-{
-    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
-    if (table == NULL)
-        return STRUM_ERR_MEMORY;
-    for (int i = 0; i < b->points; i++) {
-        const size_t from = half ? n / 2 + (size_t)i : (size_t)i;
-        (void)gsl_integration_glfixed_point(-1, 1, from, &b->x[i], &b->w[i], table);
-        if (n > GAUSS_TABULATED_MAX)
-            polish_node((int)n, &b->x[i], &b->w[i]);
-        if (half)
-            b->w[i] *= 2;
-    }
-    gsl_integration_glfixed_table_free(table);
-    return STRUM_OK;
-}
-
 strum_status legendre_make(int count, double pole, bool half, arena *a, legendre *b)
 {
     /* n Gauss points are exact to degree 2n-1; the weight adds the degree at which its own
      * Legendre series has fallen to 1e-17, which Bernstein's ellipse through the pole gives. */
     const double weight_degree = 39 / asinh(pole);
-    const size_t n = gauss_size((int)ceil(count + 1 + fmin(weight_degree, 1500) / 2));
-    const size_t points = half ? n / 2 : n;
+    const int n = gauss_size((int)ceil(count + 1 + fmin(weight_degree, 1500) / 2));
+    const size_t points = (size_t)(half ? n / 2 : n);
     b->count = count;
     b->points = (int)points;
     b->x = arena_doubles(a, 4 * points);
@@ -108,7 +61,12 @@ strum_status legendre_make(int count, double pole, bool half, arena *a, legendre
         return STRUM_ERR_MEMORY;
     b->w = b->x + points;
     b->q = b->p + points * (size_t)count;
-    const strum_status status = gauss_nodes(n, half, b);
+    if (half)
+        gauss_legendre_half(n, b->x, b->w);
+    else
+        gauss_legendre(n, b->x, b->w);
+    for (size_t i = 0; half && i < points; i++) /* for the nodes below 0 too */
+        b->w[i] *= 2;
     double *before = b->w + points, *now = before + points; /* P_{k-1}, P_k */
     for (size_t i = 0; i < points; i++)
         now[i] = 1;
@@ -123,5 +81,5 @@ strum_status legendre_make(int count, double pole, bool half, arena *a, legendre
             now[i] = next;
         }
     }
-    return status;
+    return STRUM_OK;
 }

@@ -3,7 +3,6 @@
  * precision). */
 #include <strum/strum.h>
 
-#include <gsl/gsl_errno.h>
 
 #include "check.h"
 
@@ -255,7 +254,6 @@ static void closed_forms(void **state)
 
 int main(void)
 {
-    (void)gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hanging_absorber_damping),
         cmocka_unit_test(hanging_absorber_exceptional_point),

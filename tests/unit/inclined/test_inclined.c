@@ -7,7 +7,6 @@
 #include <strum/strum.h>
 
 #include <complex.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_airy.h>
 #include <stdlib.h>
 
@@ -753,7 +752,6 @@ static void refusals(void **state)
 
 int main(void)
 {
-    gsl_set_error_handler_off();
     srand(1984);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(statics),

@@ -2,7 +2,6 @@
 /* The functions and the quadrature beneath the Galerkin methods. */
 #include "core/numerics/legendre.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_legendre.h>
 
 #include "check.h"
@@ -62,7 +61,6 @@ static void quadrature_is_exact(void **state)
 
 int main(void)
 {
-    (void)gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(functions_are_legendre),
         cmocka_unit_test(quadrature_is_exact),

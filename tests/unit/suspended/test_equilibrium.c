@@ -3,7 +3,6 @@
  */
 #include <strum/strum.h>
 
-#include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -219,7 +218,6 @@ static void impossible_and_unreachable_inputs_are_refused(void **state)
 
 int main(void)
 {
-    (void)gsl_set_error_handler_off();
     srand(1976);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_input_form_gives_one_geometry),

@@ -3,7 +3,6 @@
  * limits. */
 #include <strum/strum.h>
 
-#include <gsl/gsl_errno.h>
 
 #include "check.h"
 
@@ -137,7 +136,6 @@ static void exact_cable_near_the_inclined_taut_limit(void **state)
 
 int main(void)
 {
-    gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(published_roots),
         cmocka_unit_test(lambda_of_a_real_cable),

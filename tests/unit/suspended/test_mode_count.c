@@ -3,7 +3,6 @@
  */
 #include <strum/strum.h>
 
-#include <gsl/gsl_errno.h>
 #include <stdlib.h>
 
 #include "check.h"
@@ -121,7 +120,6 @@ static void refusals(void **state)
 
 int main(void)
 {
-    gsl_set_error_handler_off();
     srand(1984);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(taut_string),

@@ -3,7 +3,6 @@
  * method. */
 #include <strum/strum.h>
 
-#include <gsl/gsl_errno.h>
 #include <stdlib.h>
 
 #include "check.h"
@@ -436,7 +435,6 @@ static void what_cannot_be_solved_is_refused(void **state)
 
 int main(void)
 {
-    (void)gsl_set_error_handler_off();
     srand(1976);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(published_level_catenaries),

@@ -3,7 +3,6 @@
  * and the Galerkin methods. */
 #include <strum/strum.h>
 
-#include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -478,7 +477,6 @@ static void refusals(void **state)
 
 int main(void)
 {
-    gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reference_frequencies),
         cmocka_unit_test(published_level_catenaries),
