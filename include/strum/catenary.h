@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Suspended cables: equilibrium geometry, natural frequencies and modes.
+ * Suspended cables: equilibrium geometry, and the cable whose motion modes.h and forced.h solve.
  *
  * Units. Everything here is dimensionless: lengths in a = H/w (horizontal tension over weight
  * per length), forces in S0 = H, masses per length in m, times in sqrt(m a^2/H), which is
@@ -18,9 +18,13 @@
  * Gale's equations (2.29, 2.35, 2.38) are kappa_n = 0, m_t = m_n = 1; kappa_n = kappa_t
  * linearises about the exact elastic catenary (Grinfogel's equations with N (1/T0 + 1/EA)).
  *
- * Ownership: structs are the caller's; a strum_spectrum is made by strum_modes_solve and ended
- * by strum_spectrum_free. All functions are re-entrant; an object may be read by many threads
- * at once.
+ * Ownership: structs are the caller's. All functions are re-entrant.
+ *
+ *     strum_catenary c;
+ *     strum_error error;
+ *     if (strum_catenary_from_length(100, 0, 110, &c, &error) == STRUM_OK)
+ *         printf("sag %g m
+", strum_catenary_sag(&c) * 100 / c.span);
  */
 #ifndef STRUM_CATENARY_H
 #define STRUM_CATENARY_H
@@ -34,8 +38,6 @@ STRUM_BEGIN_DECLS
 /* Largest |chi| of an end: |xi| about 1.3e5. Towards it the weights of the integrals span so
  * many orders that rounding grows, to some 3e-13 in the frequencies. */
 #define STRUM_CHI_MAX 12.5
-/* Largest number of modes of one call. */
-#define STRUM_MODES_MAX 200
 
 /* The equilibrium profile between two supports. End 2 is the right end. */
 typedef struct strum_catenary {
@@ -83,7 +85,7 @@ double strum_catenary_sag(const strum_catenary *catenary);
 /* Position (in a) from end 1 of the point with slope parameter chi. */
 void strum_catenary_point(const strum_catenary *catenary, double chi, double *x, double *y);
 
-/* ---- modes ---- */
+/* ---- what moves ---- */
 
 typedef struct strum_cable {
     double chi_m, mu;        /* of the profile */
@@ -92,65 +94,6 @@ typedef struct strum_cable {
         mass_n;          /* mass per length felt tangentially and normally (added mass), > 0 */
     double eta_t, eta_n; /* viscous damping per length, >= 0 (Gale's eta_1, eta_2) */
 } strum_cable;
-
-typedef struct strum_mode {
-    double frequency; /* Im s > 0; the natural frequency where undamped */
-    double decay;     /* -Re s; 0 where undamped */
-    strum_symmetry symmetry;
-} strum_mode;
-
-/* A point of a mode shape; imaginary parts are 0 where undamped. The largest value of the
- * dominant displacement component (the one with the largest magnitude anywhere on the cable) is
- * +1. */
-typedef struct strum_shape_point {
-    double chi;
-    strum_complex tangential, normal; /* in plane; `normal` is the displacement out of plane */
-    strum_complex tension;            /* dynamic tension in S0 per unit displacement in a */
-} strum_shape_point;
-
-typedef struct strum_spectrum strum_spectrum;
-
-/* The first `count` (1..STRUM_MODES_MAX) modes that oscillate, by frequency, and every
- * overdamped root. In plane: complementary (force) Galerkin method, but for frequencies alone
- * of an inextensible cable of moderate depth the displacement form, which is half as large; out
- * of plane: displacement Galerkin method. Natural frequencies agree between two sizes to 1e-12
- * (damped: 1e-10) or STRUM_ERR_ACCURACY is returned. `shapes` keeps what strum_spectrum_shape
- * needs. */
-strum_status strum_modes_solve(const strum_cable *cable, strum_plane plane, int count,
-                               bool shapes, strum_spectrum **spectrum, strum_error *fault);
-/* Estimated time of strum_modes_solve in microseconds on a present-day core, without solving
- * anything. */
-double strum_modes_work(const strum_cable *cable, strum_plane plane, int count, bool shapes);
-void strum_spectrum_free(strum_spectrum **spectrum);
-
-int strum_spectrum_count(const strum_spectrum *spectrum);
-/* Mode `index` in 0..count-1; owned by the spectrum. */
-const strum_mode *strum_spectrum_mode(const strum_spectrum *spectrum, int index);
-/* Overdamped roots s < 0: their decay rates -s, ascending; owned by the spectrum. */
-int strum_spectrum_overdamped(const strum_spectrum *spectrum, const double **decays);
-/* Largest relative difference between the two sizes, over all modes. */
-double strum_spectrum_difference(const strum_spectrum *spectrum);
-/* Size of the discretisation that gave the answer (unknowns a component). */
-int strum_spectrum_size(const strum_spectrum *spectrum);
-
-/* The shape of mode `index` at `points` values of chi: those handed in (within the ends), or,
- * where `chi` is NULL, points >= 2 equally spaced ones, ends included. STRUM_ERR_METHOD when
- * the spectrum was solved without shapes. */
-strum_status strum_spectrum_shape(const strum_spectrum *spectrum, int index, const double *chi,
-                                  int points, strum_shape_point *shape);
-
-/* A second, independent method: in plane the displacement Galerkin
- * method (Gale's equation 2.35 in weak form; with elasticity its Hellinger-Reissner form, which
- * does not lock), out of plane the force form. The spectrum must have been solved with shapes
- * (STRUM_ERR_METHOD otherwise). Residuals are those of the eigenpairs in the second method\'s
- * pencil. */
-strum_status strum_modes_verify(const strum_spectrum *spectrum,
-                                strum_verification *verification, strum_error *fault);
-
-/* How many in-plane natural frequencies of the undamped cable lie below `frequency`: an exact
- * count by integration along the cable, independent of every Galerkin method. */
-strum_status strum_modes_count(const strum_cable *cable, double frequency, int *count,
-                               strum_error *fault);
 
 /* Rayleigh's estimate of the first out-of-plane frequency of a level cable  [Gale, Appendix
  * B-5]. */

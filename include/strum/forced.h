@@ -31,7 +31,7 @@
 #ifndef STRUM_FORCED_H
 #define STRUM_FORCED_H
 
-#include <strum/catenary.h>
+#include <strum/modes.h>
 
 STRUM_BEGIN_DECLS
 

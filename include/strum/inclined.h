@@ -14,7 +14,7 @@
 #ifndef STRUM_INCLINED_H
 #define STRUM_INCLINED_H
 
-#include <strum/catenary.h>
+#include <strum/modes.h>
 
 STRUM_BEGIN_DECLS
 
@@ -115,7 +115,7 @@ strum_status strum_inclined_shape(const strum_inclined_modes *modes, int index, 
                                   strum_inclined_point *shape);
 
 /* A second method. Full model: the strains and transverse displacement as unknowns instead of
- * forces; modes counted by strum_modes_count. Approximations: zeros of the characteristic
+ * forces; modes counted by strum_modes_below. Approximations: zeros of the characteristic
  * function counted by the argument principle, and how far each root lies from its nearest zero.
  * STRUM_ERR_METHOD for a cable that stretches to a million times its length and more.
  */

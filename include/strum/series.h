@@ -9,7 +9,7 @@
 #ifndef STRUM_SERIES_H
 #define STRUM_SERIES_H
 
-#include <strum/catenary.h>
+#include <strum/modes.h>
 
 STRUM_BEGIN_DECLS
 

@@ -23,6 +23,7 @@
 #include <strum/options.h>
 #include <strum/types.h>
 #include <strum/catenary.h>
+#include <strum/modes.h>
 #include <strum/forced.h>
 #include <strum/inclined.h>
 #include <strum/series.h>

@@ -41,14 +41,18 @@ static void fail(const char *name, const char *why)
 static void solve(void *data)
 {
     task *t = data;
-    strum_spectrum *spectrum;
+    strum_modes *spectrum;
     strum_error fault = {0};
-    if (strum_modes_solve(&t->cable, STRUM_IN_PLANE, t->count, false, &spectrum, &fault) !=
-        STRUM_OK)
+    if (strum_modes_solve(&(strum_modes_params){t->cable, STRUM_IN_PLANE, t->count, false},
+                          NULL, &spectrum, &fault) != STRUM_OK)
         fail("strum_modes_solve", fault.reason);
-    for (int i = 0; i < t->count; i++)
-        t->omega[i] = strum_spectrum_mode(spectrum, i)->frequency;
-    strum_spectrum_free(&spectrum);
+    for (int i = 0; i < t->count; i++) {
+        strum_mode mode;
+        if (strum_modes_get(spectrum, (size_t)i, &mode) != STRUM_OK)
+            fail("strum_modes_get", "no such mode");
+        t->omega[i] = mode.frequency;
+    }
+    strum_modes_free(spectrum);
 }
 
 /* As he ran it: a guess for every mode (1 % off), his stop rule. */

@@ -16,18 +16,19 @@ PROGRAM = """
 int main(void)
 {
     strum_catenary catenary;
-    strum_spectrum *spectrum = NULL;
-    strum_fault fault;
+    strum_modes_params params = STRUM_MODES_PARAMS_INIT;
+    strum_modes *modes = NULL;
+    strum_mode first;
+    strum_error fault;
     if (strum_catenary_from_sag(0, 0.85, &catenary, &fault) != STRUM_OK)
         return 1;
-    strum_cable cable = {};
-    cable.chi_m = catenary.chi_m;
-    cable.mu = catenary.mu;
-    cable.mass_t = cable.mass_n = 1;
-    if (strum_modes_solve(&cable, STRUM_IN_PLANE, 1, false, &spectrum, &fault) != STRUM_OK)
+    params.cable.chi_m = catenary.chi_m;
+    params.cable.mu = catenary.mu;
+    params.count = 1;
+    if (strum_modes_solve(&params, NULL, &modes, &fault) != STRUM_OK || strum_modes_get(modes, 0, &first) != STRUM_OK)
         return 1;
-    printf("%.17g\\n", strum_spectrum_mode(spectrum, 0)->frequency);
-    strum_spectrum_free(&spectrum);
+    printf("%.17g\\n", first.frequency);
+    strum_modes_free(modes);
     return 0;
 }
 """

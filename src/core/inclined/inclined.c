@@ -140,9 +140,9 @@ strum_status inclined_roots(const strum_inclined_modes *m, int count, inclined_w
 }
 
 /* Frequencies and force coefficients of the core's spectrum. */
-static strum_status keep_spectrum(strum_inclined_modes *m, const strum_spectrum *sp)
+static strum_status keep_spectrum(strum_inclined_modes *m, const strum_modes *sp)
 {
-    const size_t size = (size_t)strum_spectrum_size(sp);
+    const size_t size = (size_t)strum_modes_size(sp);
     const double unit = m->cable.epsilon / sqrt(cos(m->cable.inclination));
     m->size = (int)size;
     m->along = sp->coordinate;
@@ -154,8 +154,8 @@ static strum_status keep_spectrum(strum_inclined_modes *m, const strum_spectrum 
     for (int i = 0; i < m->count; i++) {
         const root *r = &sp->roots[i];
         const in_plane_part *part = sp->parts[r->symmetry];
-        m->modes[i] = (strum_inclined_mode){.kl = strum_spectrum_mode(sp, i)->frequency * unit,
-                                            .symmetry = r->symmetry};
+        m->modes[i] =
+            (strum_inclined_mode){.kl = sp->modes[i].frequency * unit, .symmetry = r->symmetry};
         for (int j = 0; j < r->length; j++)
             m->forces[(size_t)(2 * i + part->component[j]) * size + (size_t)part->index[j]] =
                 creal(r->vector[j]);
@@ -168,13 +168,13 @@ static strum_status keep_spectrum(strum_inclined_modes *m, const strum_spectrum 
 static strum_status solve_full(strum_inclined_modes *m, strum_error *fault)
 {
     const strum_cable cable = inclined_mechanics(&m->cable, &m->statics);
-    strum_spectrum *spectrum;
-    strum_status status =
-        strum_modes_solve(&cable, STRUM_IN_PLANE, m->count, true, &spectrum, fault);
+    strum_modes *spectrum;
+    strum_status status = strum_modes_solve(
+        &(strum_modes_params){cable, STRUM_IN_PLANE, m->count, true}, NULL, &spectrum, fault);
     if (status != STRUM_OK)
         return status;
     status = keep_spectrum(m, spectrum);
-    strum_spectrum_free(&spectrum);
+    strum_modes_free(spectrum);
     if (status == STRUM_OK)
         status = inclined_stretch(m);
     return status == STRUM_OK ? status : error_set(fault, status, "out of memory");
@@ -261,7 +261,7 @@ double strum_inclined_work(const strum_inclined *cable, strum_inclined_model mod
     const double size = 1.35 * spectrum_first_size(&mechanics, &x, STRUM_IN_PLANE, count);
     /* measured: the roots, and the shapes sampled for their maxima and energies */
     if (model == STRUM_INCLINED_FULL)
-        return strum_modes_work(&mechanics, STRUM_IN_PLANE, count, true) +
+        return strum_modes_work(&(strum_modes_params){mechanics, STRUM_IN_PLANE, count, true}) +
                count * (60 + 0.004 * size * size);
     const bool airy = model <= STRUM_INCLINED_AIRY_TANGENT;
     return count * (airy ? 80 + 0.01 * size * size : 25 + 0.001 * size * size);

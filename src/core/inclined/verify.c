@@ -59,7 +59,7 @@ static strum_status verify_full(const strum_inclined_modes *m, strum_verificatio
             fmax(v->max_relative_difference, fabs(kl[i] - m->modes[i].kl) / m->modes[i].kl);
     const int n = gap_after(kl, m->count);
     int counted;
-    status = strum_modes_count(&cable, (kl[n - 1] + kl[n]) / 2 / unit, &counted, NULL);
+    status = strum_modes_below(&cable, (kl[n - 1] + kl[n]) / 2 / unit, &counted, NULL);
     v->modes_expected = counted - (n - m->count);
     return status;
 }

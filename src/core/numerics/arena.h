@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scratch memory of one computation: handed out piecewise, freed at once. */
+/* What one computation may use: memory, handed out piecewise and freed at once, and work. */
 #ifndef CORE_NUMERICS_ARENA_H
 #define CORE_NUMERICS_ARENA_H
 
@@ -8,6 +8,9 @@
 typedef struct arena_block arena_block;
 typedef struct arena {
     arena_block *last;
+    struct work
+        *work; /* of the solve this belongs to, which linalg.h asks before it begins anything
+                   long; NULL: no limit */
 } arena;
 
 /* Zeroed memory that lives until arena_free; NULL when there is none left. */

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/numerics/work.h"
+
 /* The _work forms: column-major passes through without copies, and no scan for NaN. */
 
 static void mirror(int n, double *c, int ldc)
@@ -49,17 +51,17 @@ static strum_status symmetric_standard(int n, double *c, int want, double *value
     lapack_int *support = arena_alloc(scratch, 2 * size, sizeof *support);
     lapack_int *iwork = arena_alloc(scratch, 10 * size, sizeof *iwork);
     const lapack_int lwork = 40 * n;
-    double *work = arena_doubles(scratch, (size_t)lwork);
+    double *room = arena_doubles(scratch, (size_t)lwork);
     double *z = vectors != NULL ? arena_doubles(scratch, size * (size_t)want) : NULL;
-    if (all == NULL || support == NULL || iwork == NULL || work == NULL ||
+    if (all == NULL || support == NULL || iwork == NULL || room == NULL ||
         (vectors != NULL && z == NULL))
         return STRUM_ERR_MEMORY;
     lapack_int found = n, info;
     if (vectors == NULL)
-        info = LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'N', 'L', n, c, n, all, work, lwork);
+        info = LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'N', 'L', n, c, n, all, room, lwork);
     else
         info = LAPACKE_dsyevr_work(LAPACK_COL_MAJOR, 'V', want == n ? 'A' : 'I', 'L', n, c, n,
-                                   0, 0, n - want + 1, n, 0, &found, all, z, n, support, work,
+                                   0, 0, n - want + 1, n, 0, &found, all, z, n, support, room,
                                    lwork, iwork, 10 * n);
     if (info != 0 || (vectors != NULL && found != want))
         return STRUM_ERR_INTERNAL;
@@ -84,6 +86,8 @@ static double quadratic_form(int n, const double *s, int lds, const double *v)
 strum_status linalg_symmetric(int n, const double *a, int lda, const double *b, int ldb,
                               int want, double *values, double *vectors, arena *scratch)
 {
+    if (work_spend(scratch->work, 4e-4 * n * n * (double)n) != STRUM_OK)
+        return scratch->work->status;
     const size_t size = (size_t)n * (size_t)n;
     double *c = arena_doubles(scratch, size);
     double *root = b != NULL ? arena_doubles(scratch, size) : NULL;
@@ -115,17 +119,19 @@ strum_status linalg_symmetric(int n, const double *a, int lda, const double *b, 
 strum_status linalg_semidefinite_root(int n, const double *a, int lda, double *l, int *rank,
                                       arena *scratch)
 {
+    if (work_spend(scratch->work, 1e-3 * n * n * (double)n) != STRUM_OK)
+        return scratch->work->status;
     lapack_int *pivots = arena_alloc(scratch, (size_t)n, sizeof *pivots);
-    double *work = arena_doubles(scratch, 2 * (size_t)n);
+    double *room = arena_doubles(scratch, 2 * (size_t)n);
     double *c = arena_doubles(scratch, (size_t)n * (size_t)n);
-    if (pivots == NULL || work == NULL || c == NULL)
+    if (pivots == NULL || room == NULL || c == NULL)
         return STRUM_ERR_MEMORY;
     copy(n, n, a, lda, c, n);
     double largest = 0;
     for (int i = 0; i < n; i++)
         largest = fmax(largest, c[i + (size_t)i * (size_t)n]);
     const lapack_int info = LAPACKE_dpstrf_work(LAPACK_COL_MAJOR, 'L', n, c, n, pivots, rank,
-                                                DBL_EPSILON * largest, work);
+                                                DBL_EPSILON * largest, room);
     if (info < 0)
         return STRUM_ERR_INTERNAL;
     for (int j = 0; j < *rank; j++)
@@ -138,14 +144,16 @@ strum_status linalg_semidefinite_root(int n, const double *a, int lda, double *l
 strum_status linalg_quadratic(int n, const double *c, const double *m, double _Complex *values,
                               double _Complex *vectors, arena *scratch)
 {
+    if (work_spend(scratch->work, 3e-2 * n * n * (double)n) != STRUM_OK)
+        return scratch->work->status;
     const size_t s = (size_t)n, two = 2 * s;
     double *companion = arena_doubles(scratch, two * two);
     double *v = vectors != NULL ? arena_doubles(scratch, two * two) : NULL;
     double *re = arena_doubles(scratch, two), *im = arena_doubles(scratch, two);
     const lapack_int lwork = (lapack_int)(16 * two);
-    double *work = arena_doubles(scratch, (size_t)lwork);
+    double *room = arena_doubles(scratch, (size_t)lwork);
     if (companion == NULL || (vectors != NULL && v == NULL) || re == NULL || im == NULL ||
-        work == NULL)
+        room == NULL)
         return STRUM_ERR_MEMORY;
     /* z [z g; g] = [-C -M; I 0] [z g; g] */
     for (size_t j = 0; j < s; j++) {
@@ -157,7 +165,7 @@ strum_status linalg_quadratic(int n, const double *c, const double *m, double _C
     }
     if (LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', vectors != NULL ? 'V' : 'N', (lapack_int)two,
                            companion, (lapack_int)two, re, im, NULL, 1, v, (lapack_int)two,
-                           work, lwork) != 0)
+                           room, lwork) != 0)
         return STRUM_ERR_INTERNAL;
     for (size_t j = 0; j < two; j++) {
         values[j] = CMPLX(re[j], im[j]);
@@ -175,6 +183,8 @@ strum_status linalg_quadratic(int n, const double *c, const double *m, double _C
 
 strum_status linalg_complex_solve(int n, double _Complex *z, double _Complex *r, arena *scratch)
 {
+    if (work_spend(scratch->work, 8e-4 * n * n * (double)n) != STRUM_OK)
+        return scratch->work->status;
     lapack_int *pivots = arena_alloc(scratch, (size_t)n, sizeof *pivots);
     if (pivots == NULL)
         return STRUM_ERR_MEMORY;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Dense linear algebra: thin wrappers of LAPACK, column-major. Sizes are positive; memory is
- * the arena's. */
+ * the arena's, and its work: a call that would pass its limit, or was cancelled, is not begun. */
 #ifndef CORE_NUMERICS_LINALG_H
 #define CORE_NUMERICS_LINALG_H
 

@@ -16,6 +16,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <strum/modes.h>
+
 #include "core/numerics/gauss.h"
 #include "core/numerics/legendre.h"
 #include "core/suspended/in_plane.h"
@@ -151,7 +153,7 @@ static void normalise(state y)
     }
 }
 
-strum_status strum_modes_count(const strum_cable *cable, double frequency, int *count,
+strum_status strum_modes_below(const strum_cable *cable, double frequency, int *count,
                                strum_error *fault)
 {
     if (cable->eta_t > 0 || cable->eta_n > 0)

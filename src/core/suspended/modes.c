@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/numerics/work.h"
 #include "core/suspended/displacement.h"
 
 strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_plane plane,
@@ -201,7 +202,7 @@ static bool by_displacement(const strum_cable *c, strum_plane plane, bool shapes
 
 /* Largest of the last coefficients of any mode, relative to the mode's largest: what the size
  * leaves out of the shapes, which converge at half the rate of the frequencies. */
-static double shape_tail(const strum_spectrum *sp)
+static double shape_tail(const strum_modes *sp)
 {
     double worst = 0;
     for (int i = 0; i < sp->count; i++) {
@@ -226,7 +227,7 @@ static double shape_tail(const strum_spectrum *sp)
 
 /* One try at one size; STRUM_ERR_ACCURACY when the two sizes differ or shapes are cut off:
  * `*excess` is how many times too much. */
-static strum_status attempt(strum_spectrum *sp, int size, int block, int want, int count,
+static strum_status attempt(strum_modes *sp, int size, int block, int want, int count,
                             double tolerance, double *excess)
 {
     arena *a = &sp->memory;
@@ -257,7 +258,7 @@ static strum_status attempt(strum_spectrum *sp, int size, int block, int want, i
     return modes.count == count && *excess <= 1 ? STRUM_OK : STRUM_ERR_ACCURACY;
 }
 
-static strum_status number_modes(strum_spectrum *sp)
+static strum_status number_modes(strum_modes *sp)
 {
     sp->modes = arena_alloc(&sp->memory, (size_t)sp->count, sizeof *sp->modes);
     if (sp->modes == NULL)
@@ -276,7 +277,7 @@ static strum_status number_modes(strum_spectrum *sp)
 }
 
 /* Grows the size until two agree. */
-static strum_status solve(strum_spectrum *sp, int count, strum_error *fault)
+static strum_status solve(strum_modes *sp, int count, strum_error *fault)
 {
     const double critical = largest_rate(&sp->cable, sp->plane) / 2;
     const double lost = ceil(1.1 * spectrum_phase_count(&sp->cable, sp->plane, critical));
@@ -315,6 +316,8 @@ static strum_status solve(strum_spectrum *sp, int count, strum_error *fault)
                               sp->difference <= tolerance && sp->tail < 100 * SHAPE_TAIL_MAX;
         if (status == STRUM_OK || (status == STRUM_ERR_ACCURACY && passable))
             return number_modes(sp);
+        if (status == STRUM_ERR_CANCELLED || status == STRUM_ERR_WORK)
+            return work_error(sp->memory.work, fault);
         if (status != STRUM_ERR_ACCURACY)
             return error_set(fault, status, "%s", strum_status_text(status));
         arena_free(&sp->memory);
@@ -340,31 +343,39 @@ static strum_status solve(strum_spectrum *sp, int count, strum_error *fault)
         sp->difference, tolerance, sp->size);
 }
 
-strum_status strum_modes_solve(const strum_cable *cable, strum_plane plane, int count,
-                               bool shapes, strum_spectrum **spectrum, strum_error *fault)
+strum_status strum_modes_solve(const strum_modes_params *params, const strum_options *options,
+                               strum_modes **modes, strum_error *error)
 {
-    *spectrum = NULL;
-    strum_status status = spectrum_check_cable(cable, fault);
+    *modes = NULL;
+    strum_status status = spectrum_check_cable(&params->cable, error);
     if (status != STRUM_OK)
         return status;
-    if (count < 1 || count > STRUM_MODES_MAX)
-        return error_set(fault, STRUM_ERR_RANGE, "1 to %d modes can be asked for",
-                         STRUM_MODES_MAX);
-    strum_spectrum *sp = calloc(1, sizeof *sp);
+    if (params->count < 1 || params->count > STRUM_MODES_MAX)
+        return error_at(error, STRUM_ERR_RANGE, STRUM_MODES_ARG_COUNT, STRUM_NO_INDEX,
+                        "1 to %d modes can be asked for", STRUM_MODES_MAX);
+    strum_modes *sp = calloc(1, sizeof *sp);
     if (sp == NULL)
-        return error_set(fault, STRUM_ERR_MEMORY, "out of memory");
-    sp->cable = *cable;
-    sp->plane = plane;
-    sp->shapes = shapes;
-    status = solve(sp, count, fault);
-    if (status != STRUM_OK)
-        strum_spectrum_free(&sp);
-    *spectrum = sp;
+        return error_set(error, STRUM_ERR_MEMORY, "out of memory");
+    work spent = work_begin(options);
+    sp->memory.work = &spent;
+    sp->cable = params->cable;
+    sp->plane = params->plane;
+    sp->shapes = params->shapes;
+    status = solve(sp, params->count, error);
+    sp->memory.work = NULL; /* it ends here */
+    if (status == STRUM_OK)
+        *modes = sp;
+    else
+        strum_modes_free(sp);
     return status;
 }
 
-double strum_modes_work(const strum_cable *cable, strum_plane plane, int count, bool shapes)
+double strum_modes_work(const strum_modes_params *params)
 {
+    const strum_cable *cable = &params->cable;
+    const strum_plane plane = params->plane;
+    const bool shapes = params->shapes;
+    const int count = params->count;
     const double lost = spectrum_phase_count(cable, plane, largest_rate(cable, plane) / 2);
     const int want = count + (int)fmin(lost, 400);
     const bool level = cable->chi_m == 0; /* a symmetry to split by */
@@ -381,37 +392,39 @@ double strum_modes_work(const strum_cable *cable, strum_plane plane, int count, 
     return 30 + 0.04 * size * size + (quadratic ? 0.03 : 0.0016) * size * size * size;
 }
 
-void strum_spectrum_free(strum_spectrum **spectrum)
+void strum_modes_free(strum_modes *sp)
 {
-    if (*spectrum != NULL) {
-        arena_free(&(*spectrum)->memory);
-        free(*spectrum);
-        *spectrum = NULL;
-    }
+    if (sp == NULL)
+        return;
+    arena_free(&sp->memory);
+    free(sp);
 }
 
-int strum_spectrum_count(const strum_spectrum *sp)
+size_t strum_modes_count(const strum_modes *sp)
 {
-    return sp->count;
+    return (size_t)sp->count;
 }
 
-const strum_mode *strum_spectrum_mode(const strum_spectrum *sp, int index)
+strum_status strum_modes_get(const strum_modes *sp, size_t index, strum_mode *mode)
 {
-    return &sp->modes[index];
+    if (index >= (size_t)sp->count)
+        return STRUM_ERR_RANGE;
+    *mode = sp->modes[index];
+    return STRUM_OK;
 }
 
-int strum_spectrum_overdamped(const strum_spectrum *sp, const double **decays)
+size_t strum_modes_overdamped(const strum_modes *sp, const double **decays)
 {
     *decays = sp->decays;
-    return sp->overdamped;
+    return (size_t)sp->overdamped;
 }
 
-double strum_spectrum_difference(const strum_spectrum *sp)
+double strum_modes_difference(const strum_modes *sp)
 {
     return sp->difference;
 }
 
-int strum_spectrum_size(const strum_spectrum *sp)
+int strum_modes_size(const strum_modes *sp)
 {
     return sp->size;
 }

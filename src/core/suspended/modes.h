@@ -2,11 +2,11 @@
 #ifndef CORE_SUSPENDED_MODES_H
 #define CORE_SUSPENDED_MODES_H
 
-#include <strum/catenary.h>
+#include <strum/modes.h>
 
 #include "core/suspended/roots.h"
 
-struct strum_spectrum {
+struct strum_modes {
     strum_cable cable;
     strum_plane plane;
     mapping coordinate;
@@ -62,9 +62,9 @@ typedef struct in_plane_state {
     double _Complex force[2], displacement[2];
 } in_plane_state;
 /* `table`: p and q of every k at x. */
-void spectrum_in_plane_at(const strum_spectrum *spectrum, int index, double x,
-                          const double *table, in_plane_state *state);
+void spectrum_in_plane_at(const strum_modes *spectrum, int index, double x, const double *table,
+                          in_plane_state *state);
 /* Fills `units`. */
-strum_status spectrum_normalise(strum_spectrum *spectrum);
+strum_status spectrum_normalise(strum_modes *spectrum);
 
 #endif

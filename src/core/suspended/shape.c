@@ -6,7 +6,7 @@
 #include "core/suspended/modes.h"
 
 /* Values along the cable before normalisation; `table` holds p and q of every k at x. */
-void spectrum_in_plane_at(const strum_spectrum *sp, int index, double x, const double *table,
+void spectrum_in_plane_at(const strum_modes *sp, int index, double x, const double *table,
                           in_plane_state *state)
 {
     const root *r = &sp->roots[index];
@@ -32,7 +32,7 @@ void spectrum_in_plane_at(const strum_spectrum *sp, int index, double x, const d
     state->displacement[1] = across;
 }
 
-static void point_at(const strum_spectrum *sp, int index, double x, const double *table,
+static void point_at(const strum_modes *sp, int index, double x, const double *table,
                      strum_shape_point *point)
 {
     point->chi = sp->cable.chi_m + mapping_offset(&sp->coordinate, x);
@@ -53,7 +53,7 @@ static void point_at(const strum_spectrum *sp, int index, double x, const double
 
 /* One displacement component of one mode, for the search of its largest value. */
 typedef struct component {
-    const strum_spectrum *sp;
+    const strum_modes *sp;
     int index, number; /* of the mode; 0 tangential, 1 normal */
     double *table;
     double _Complex value; /* at the last x asked for */
@@ -76,7 +76,7 @@ static double refine(void *data, double low, double high, double *x)
 
 /* Where a mode's largest value lies does not depend on how many points are asked for. All modes
  * at once: the functions at a sample cost as much as a mode's sum of them. */
-strum_status spectrum_normalise(strum_spectrum *sp)
+strum_status spectrum_normalise(strum_modes *sp)
 {
     arena scratch = {0};
     const size_t samples = 2 * (size_t)sp->size + 1, count = (size_t)sp->count;
@@ -114,14 +114,14 @@ strum_status spectrum_normalise(strum_spectrum *sp)
     return STRUM_OK;
 }
 
-strum_status strum_spectrum_shape(const strum_spectrum *sp, int index, const double *chi,
-                                  int points, strum_shape_point *shape)
+strum_status strum_modes_shape(const strum_modes *sp, size_t index, const double *chi,
+                               size_t points, strum_shape_point *shape)
 {
     if (!sp->shapes)
         return STRUM_ERR_METHOD;
-    if (index < 0 || index >= sp->count || points < (chi == NULL ? 2 : 1))
+    if (index >= (size_t)sp->count || points < (chi == NULL ? 2 : 1))
         return STRUM_ERR_RANGE;
-    for (int i = 0; chi != NULL && i < points; i++)
+    for (size_t i = 0; chi != NULL && i < points; i++)
         if (!(fabs(chi[i] - sp->cable.chi_m) <= sp->cable.mu * (1 + 1e-12)))
             return STRUM_ERR_RANGE;
     arena scratch = {0};
@@ -129,13 +129,13 @@ strum_status strum_spectrum_shape(const strum_spectrum *sp, int index, const dou
     if (table == NULL)
         return STRUM_ERR_MEMORY;
     const double _Complex unit = sp->units[index];
-    for (int i = 0; i < points; i++) {
-        const double share = i == points - 1 ? 1 : 2.0 * i / (points - 1) - 1;
+    for (size_t i = 0; i < points; i++) {
+        const double share = i == points - 1 ? 1 : 2.0 * (double)i / (double)(points - 1) - 1;
         const double at = chi != NULL ? chi[i] : sp->cable.chi_m + sp->cable.mu * share;
         const double x =
             chi == NULL && fabs(share) == 1 ? share : mapping_x(&sp->coordinate, at);
         legendre_at_with(sp->factors, x, sp->size, table, table + sp->size);
-        point_at(sp, index, x, table, &shape[i]);
+        point_at(sp, (int)index, x, table, &shape[i]);
         shape[i].chi = at;
         shape[i].tangential /= unit;
         shape[i].normal /= unit;

@@ -2,6 +2,7 @@
 /* A second opinion on a spectrum. */
 #include <math.h>
 
+#include "core/numerics/work.h"
 #include "core/suspended/displacement.h"
 #include "core/suspended/modes.h"
 
@@ -9,8 +10,7 @@
  * plane the displacement at a support, out of plane the acceleration there (there W_chi = e V
  * with e = 1 + kappa_n cosh, so that e V_chi = W_chichi - W_chi e_chi/e); relative to the
  * largest along the cable. */
-static strum_status closure(const strum_spectrum *sp, int index, double *table,
-                            double *residual)
+static strum_status closure(const strum_modes *sp, int index, double *table, double *residual)
 {
     double end = 0, inside = 0;
     const root *r = &sp->roots[index];
@@ -47,7 +47,7 @@ static strum_status closure(const strum_spectrum *sp, int index, double *table,
     return STRUM_OK;
 }
 
-static strum_status second_roots(const strum_spectrum *sp, int size, int want, arena *a,
+static strum_status second_roots(const strum_modes *sp, int size, int want, arena *a,
                                  root_list *list, const char **method)
 {
     const strum_cable *c = &sp->cable;
@@ -75,9 +75,10 @@ static double nearest(const root_list *list, double _Complex s)
 }
 
 /* Agreement and count at one size of the second method. */
-static strum_status hold_against(const strum_spectrum *sp, int size, strum_verification *v)
+static strum_status hold_against(const strum_modes *sp, int size, work *spent,
+                                 strum_verification *v)
 {
-    arena a = {0};
+    arena a = {.work = spent};
     root_list list = {0};
     const int want = sp->count + sp->overdamped + 8;
     const strum_status status = second_roots(sp, size, want, &a, &list, &v->method);
@@ -93,13 +94,14 @@ static strum_status hold_against(const strum_spectrum *sp, int size, strum_verif
     return status;
 }
 
-strum_status strum_modes_verify(const strum_spectrum *sp, strum_verification *v,
-                                strum_error *fault)
+strum_status strum_modes_verify(const strum_modes *sp, const strum_options *options,
+                                strum_verification *v, strum_error *fault)
 {
     if (!sp->shapes)
         return error_set(fault, STRUM_ERR_METHOD, "a spectrum is verified with its shapes");
     *v = (strum_verification){.modes_found = sp->count};
-    arena a = {0};
+    work spent = work_begin(options);
+    arena a = {.work = &spent};
     double *table = arena_doubles(&a, 2 * (size_t)sp->size);
     strum_status status = table == NULL ? STRUM_ERR_MEMORY : STRUM_OK;
     for (int i = 0; status == STRUM_OK && i < sp->count; i++) {
@@ -111,7 +113,7 @@ strum_status strum_modes_verify(const strum_spectrum *sp, strum_verification *v,
     int size = sp->size;
     double before = INFINITY;
     while (status == STRUM_OK) {
-        status = hold_against(sp, size, v);
+        status = hold_against(sp, size, &spent, v);
         if (v->max_relative_difference < 1e-12 || v->max_relative_difference > before / 3 ||
             size > SPECTRUM_SIZE_MAX)
             break;
@@ -119,6 +121,8 @@ strum_status strum_modes_verify(const strum_spectrum *sp, strum_verification *v,
         size = (int)(1.4 * size);
     }
     arena_free(&a);
-    return status == STRUM_OK ? status
-                              : error_set(fault, status, "%s", strum_status_text(status));
+    if (status == STRUM_OK)
+        return status;
+    return spent.status != STRUM_OK ? work_error(&spent, fault)
+                                    : error_set(fault, status, "%s", strum_status_text(status));
 }

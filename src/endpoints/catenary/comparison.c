@@ -34,9 +34,10 @@ static double difference(const strum_mode *modes, const strum_mode *others, int 
 
 /* A Galerkin answer: the core's second method, and the series where they reach. */
 static strum_status confirm_galerkin(const cable_input *in, strum_plane plane,
-                                     const plane_modes *found, opinion *o, strum_error *fault)
+                                     const plane_modes *found, const strum_options *options,
+                                     opinion *o, strum_error *fault)
 {
-    const strum_status status = strum_modes_verify(found->spectrum, &o->second, fault);
+    const strum_status status = strum_modes_verify(found->spectrum, options, &o->second, fault);
     if (status != STRUM_OK || verification_series_work(in, plane, found->count) <= 0)
         return status;
     strum_mode modes[VERIFY_SERIES_MODES];
@@ -56,13 +57,15 @@ static strum_status confirm_galerkin(const cable_input *in, strum_plane plane,
 /* An answer by series: the Galerkin methods, with a few modes more so that one that the series
  * had missed would be counted. */
 static strum_status confirm_series(const cable_input *in, strum_plane plane,
-                                   const plane_modes *found, opinion *o, strum_error *fault)
+                                   const plane_modes *found, const strum_options *options,
+                                   opinion *o, strum_error *fault)
 {
     const int count = found->count, more = (int)fmin(count + 4, STRUM_MODES_MAX);
-    strum_spectrum *exact = NULL;
-    strum_status status = strum_modes_solve(&in->cable, plane, more, true, &exact, fault);
+    strum_modes *exact = NULL;
+    strum_status status = strum_modes_solve(&(strum_modes_params){in->cable, plane, more, true},
+                                            options, &exact, fault);
     if (status == STRUM_OK)
-        status = strum_modes_verify(exact, &o->second, fault);
+        status = strum_modes_verify(exact, options, &o->second, fault);
     if (status == STRUM_OK) {
         const double last = found->modes[count - 1].frequency * (1 + 1e-9);
         o->second.method = plane == STRUM_IN_PLANE ? "force Galerkin" : "displacement Galerkin";
@@ -70,12 +73,12 @@ static strum_status confirm_series(const cable_input *in, strum_plane plane,
         o->second.modes_expected = 0;
         strum_mode modes[STRUM_MODES_MAX];
         for (int i = 0; i < more; i++) {
-            modes[i] = *strum_spectrum_mode(exact, i);
+            (void)strum_modes_get(exact, (size_t)i, &modes[i]); /* all are there */
             o->second.modes_expected += modes[i].frequency <= last;
         }
         o->second.max_relative_difference = difference(found->modes, modes, count);
     }
-    strum_spectrum_free(&exact);
+    strum_modes_free(exact);
     return status;
 }
 
@@ -99,8 +102,9 @@ static void write_opinion(json_writer *json, const opinion *o)
 
 /* One plane: its verification; both: the worse of the two on top, each in full below. */
 bool write_verification(json_writer *json, const cable_input *in, const plane_modes found[2],
-                        problem *p)
+                        const answer *a)
 {
+    const strum_options options = answer_options(a);
     opinion each[2] = {0}, worst = {.second.method = "each plane by its own, see below"};
     for (int plane = 0; plane < 2; plane++) {
         if (found[plane].count == 0)
@@ -108,10 +112,12 @@ bool write_verification(json_writer *json, const cable_input *in, const plane_mo
         strum_error fault = {0};
         const strum_status status =
             found[plane].spectrum != NULL
-                ? confirm_galerkin(in, (strum_plane)plane, &found[plane], &each[plane], &fault)
-                : confirm_series(in, (strum_plane)plane, &found[plane], &each[plane], &fault);
+                ? confirm_galerkin(in, (strum_plane)plane, &found[plane], &options,
+                                   &each[plane], &fault)
+                : confirm_series(in, (strum_plane)plane, &found[plane], &options, &each[plane],
+                                 &fault);
         if (status != STRUM_OK) {
-            cable_refuse(&fault, status, p);
+            cable_refuse(&fault, status, a->problem);
             return false;
         }
         const strum_verification *v = &each[plane].second;

@@ -12,7 +12,7 @@
 typedef struct plane_modes {
     int count; /* 0: this plane was not asked for */
     strum_mode modes[STRUM_MODES_MAX];
-    strum_spectrum *spectrum; /* Galerkin method; NULL: by the series */
+    strum_modes *spectrum; /* Galerkin method; NULL: by the series */
     strum_series_report series;
 } plane_modes;
 
@@ -24,7 +24,7 @@ extern const char *const plane_keys[];
 double verification_series_work(const cable_input *in, strum_plane plane, int count);
 /* "verification"; false with `p` set when the second method fails. */
 bool write_verification(json_writer *json, const cable_input *in, const plane_modes found[2],
-                        problem *p);
+                        const answer *a);
 /* "comparison". */
 void write_comparison(json_writer *json, const cable_input *in, const plane_modes found[2]);
 

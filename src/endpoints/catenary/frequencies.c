@@ -96,10 +96,10 @@ static double plane_cost_us(const request *r, strum_plane plane)
                               ? strum_series_work(cable, plane, modes, true)
                           : r->verify ? verification_series_work(&r->in, plane, modes)
                                       : 0;
-    const double galerkin =
-        r->method == METHOD_GALERKIN || r->verify
-            ? strum_modes_work(cable, plane, modes, r->shape_points > 0 || r->verify)
-            : 0;
+    const double galerkin = r->method == METHOD_GALERKIN || r->verify
+                                ? strum_modes_work(&(strum_modes_params){
+                                      *cable, plane, modes, r->shape_points > 0 || r->verify})
+                                : 0;
     return series + galerkin * (r->verify ? 2 : 1);
 }
 
@@ -178,7 +178,7 @@ static bool write_modes(json_writer *json, const request *r, strum_plane plane,
         cable_write_rates(json, &r->in, CMPLX(-mode->decay, mode->frequency));
         json_put_string(json, "symmetry", symmetry_text(mode->symmetry));
         if (points > 0) {
-            status = strum_spectrum_shape(found->spectrum, k, NULL, points, shape);
+            status = strum_modes_shape(found->spectrum, (size_t)k, NULL, (size_t)points, shape);
             if (status == STRUM_OK)
                 write_shape(json, &r->in, plane, shape, points);
         }
@@ -201,7 +201,7 @@ static void write_overdamped(json_writer *json, const request *r, const plane_mo
         if (found[plane].count == 0)
             continue;
         const double *decays;
-        const int count = strum_spectrum_overdamped(found[plane].spectrum, &decays);
+        const int count = (int)strum_modes_overdamped(found[plane].spectrum, &decays);
         json_key(json, plane_keys[plane]);
         json_open_array(json);
         for (int i = 0; i < count; i++) {
@@ -241,9 +241,15 @@ static bool answer_rayleigh(const request *r, answer *a)
     strum_error fault = {0};
     double estimate;
     strum_status status = strum_rayleigh_out_of_plane(&r->in.catenary, &estimate, &fault);
-    strum_spectrum *exact = NULL;
+    strum_modes *exact = NULL;
+    strum_mode first = {0};
+    const strum_options options = answer_options(a);
     if (status == STRUM_OK && r->verify)
-        status = strum_modes_solve(&r->in.cable, STRUM_OUT_OF_PLANE, 1, false, &exact, &fault);
+        status =
+            strum_modes_solve(&(strum_modes_params){r->in.cable, STRUM_OUT_OF_PLANE, 1, false},
+                              &options, &exact, &fault);
+    if (status == STRUM_OK && exact != NULL)
+        status = strum_modes_get(exact, 0, &first);
     if (status != STRUM_OK) {
         cable_refuse(&fault, status, a->problem);
         return false;
@@ -264,7 +270,7 @@ static bool answer_rayleigh(const request *r, answer *a)
     json_close_object(json);
     json_close_array(json);
     if (exact != NULL) {
-        const double difference = fabs(estimate / strum_spectrum_mode(exact, 0)->frequency - 1);
+        const double difference = fabs(estimate / first.frequency - 1);
         json_key(json, "verification");
         json_open_object(json);
         json_put_string(json, "method", "displacement Galerkin (exact to 1e-12)");
@@ -273,13 +279,14 @@ static bool answer_rayleigh(const request *r, answer *a)
         json_put_integer(json, "modes_found", 1);
         json_put_number(json, "max_residual", difference);
         json_close_object(json);
-        strum_spectrum_free(&exact);
+        strum_modes_free(exact);
     }
     json_close_object(json);
     return true;
 }
 
-static strum_status solve_plane(const request *r, strum_plane plane, plane_modes *found,
+static strum_status solve_plane(const request *r, strum_plane plane,
+                                const strum_options *options, plane_modes *found,
                                 strum_error *fault)
 {
     const int count = (int)r->modes;
@@ -288,10 +295,11 @@ static strum_status solve_plane(const request *r, strum_plane plane, plane_modes
         status = strum_series_solve(&r->in.cable, plane, count, true, found->modes,
                                     &found->series, fault);
     } else {
-        status = strum_modes_solve(&r->in.cable, plane, count, r->shape_points > 0 || r->verify,
-                                   &found->spectrum, fault);
+        status = strum_modes_solve(
+            &(strum_modes_params){r->in.cable, plane, count, r->shape_points > 0 || r->verify},
+            options, &found->spectrum, fault);
         for (int i = 0; i < count && status == STRUM_OK; i++)
-            found->modes[i] = *strum_spectrum_mode(found->spectrum, i);
+            status = strum_modes_get(found->spectrum, (size_t)i, &found->modes[i]);
     }
     found->count = status == STRUM_OK ? count : 0;
     return status;
@@ -314,11 +322,12 @@ static bool answer_modes(const void *data, answer *a)
     if (r->method == METHOD_RAYLEIGH)
         return answer_rayleigh(r, a);
     plane_modes found[2] = {0};
+    const strum_options options = answer_options(a);
     strum_error fault = {0};
     strum_status status = STRUM_OK;
     for (int plane = 0; plane < 2 && status == STRUM_OK; plane++)
         if (asks(r, (strum_plane)plane))
-            status = solve_plane(r, (strum_plane)plane, &found[plane], &fault);
+            status = solve_plane(r, (strum_plane)plane, &options, &found[plane], &fault);
     bool good = status == STRUM_OK;
     if (!good) {
         cable_refuse(&fault, status, a->problem);
@@ -350,10 +359,10 @@ static bool answer_modes(const void *data, answer *a)
     if (good && r->compare)
         write_comparison(json, &r->in, found);
     if (good && r->verify)
-        good = write_verification(json, &r->in, found, a->problem);
+        good = write_verification(json, &r->in, found, a);
     json_close_object(json);
-    strum_spectrum_free(&found[0].spectrum);
-    strum_spectrum_free(&found[1].spectrum);
+    strum_modes_free(found[0].spectrum);
+    strum_modes_free(found[1].spectrum);
     return good;
 }
 

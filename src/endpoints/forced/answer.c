@@ -314,7 +314,8 @@ static void write_resonance(json_writer *json, const forced_request *r,
 static strum_status write_damped_resonances(json_writer *json, const forced_request *r,
                                             strum_plane plane, answer *a)
 {
-    strum_spectrum *spectrum = NULL;
+    strum_modes *spectrum = NULL;
+    const strum_options options = answer_options(a);
     strum_error fault = {0};
     strum_status status;
     double last = 0;
@@ -322,8 +323,9 @@ static strum_status write_damped_resonances(json_writer *json, const forced_requ
         return STRUM_OK;
     for (int modes = 6; last * r->in.ratio <= r->highest && modes <= STRUM_MODES_MAX;
          modes = modes < STRUM_MODES_MAX ? (int)fmin(2 * modes, STRUM_MODES_MAX) : modes + 1) {
-        strum_spectrum_free(&spectrum);
-        status = strum_modes_solve(&r->in.cable, plane, modes, false, &spectrum, &fault);
+        strum_modes_free(spectrum);
+        status = strum_modes_solve(&(strum_modes_params){r->in.cable, plane, modes, false},
+                                   &options, &spectrum, &fault);
         if (status == STRUM_ERR_RANGE || status == STRUM_ERR_ACCURACY) {
             answer_warn(a, "the resonances %s are not listed: %s",
                         plane == STRUM_IN_PLANE ? "in plane" : "out of plane", fault.reason);
@@ -331,17 +333,19 @@ static strum_status write_damped_resonances(json_writer *json, const forced_requ
         }
         if (status != STRUM_OK)
             return status;
-        last = strum_spectrum_mode(spectrum, modes - 1)->frequency;
+        strum_mode highest = {0};
+        (void)strum_modes_get(spectrum, (size_t)modes - 1, &highest);
+        last = highest.frequency;
     }
-    for (int i = 0; i < strum_spectrum_count(spectrum); i++) {
-        const strum_mode *mode = strum_spectrum_mode(spectrum, i);
-        const strum_resonance at = {.frequency = mode->frequency,
+    strum_mode mode;
+    for (size_t i = 0; strum_modes_get(spectrum, i, &mode) == STRUM_OK; i++) {
+        const strum_resonance at = {.frequency = mode.frequency,
                                     .plane = plane,
-                                    .mode = i + 1,
-                                    .symmetry = mode->symmetry};
-        write_resonance(json, r, &at, mode->decay, -1);
+                                    .mode = (int)i + 1,
+                                    .symmetry = mode.symmetry};
+        write_resonance(json, r, &at, mode.decay, -1);
     }
-    strum_spectrum_free(&spectrum);
+    strum_modes_free(spectrum);
     return STRUM_OK;
 }
 
@@ -385,7 +389,7 @@ static strum_status compare_at(solving *s, double frequency_ratio, const strum_o
 
 /* How many natural frequencies the second method counts where `count` were found. */
 static strum_status count_modes(const forced_request *r, const strum_resonance *list, int count,
-                                int *expected, strum_error *fault)
+                                const strum_options *options, int *expected, strum_error *fault)
 {
     strum_cable undamped = r->in.cable;
     undamped.eta_t = undamped.eta_n = 0;
@@ -395,16 +399,17 @@ static strum_status count_modes(const forced_request *r, const strum_resonance *
         int modes = 0;
         for (int i = 0; i < count; i++)
             modes += list[i].plane == (strum_plane)plane;
-        strum_spectrum *spectrum;
+        strum_modes *spectrum;
         strum_verification v = {0};
         if (modes == 0)
             continue;
         status =
-            strum_modes_solve(&undamped, (strum_plane)plane, modes, true, &spectrum, fault);
+            strum_modes_solve(&(strum_modes_params){undamped, (strum_plane)plane, modes, true},
+                              options, &spectrum, fault);
         if (status == STRUM_OK)
-            status = strum_modes_verify(spectrum, &v, fault);
+            status = strum_modes_verify(spectrum, options, &v, fault);
         *expected += (int)v.modes_expected;
-        strum_spectrum_free(&spectrum);
+        strum_modes_free(spectrum);
     }
     return status;
 }
@@ -426,7 +431,7 @@ static strum_status write_verification(json_writer *json, solving *s,
             compare_at(s, r->profiles_at.items[i], &options, &tension, &displacement, fault);
     int expected;
     if (status == STRUM_OK)
-        status = count_modes(r, list, count, &expected, fault);
+        status = count_modes(r, list, count, &options, &expected, fault);
     if (status != STRUM_OK)
         return status;
     json_key(json, "verification");

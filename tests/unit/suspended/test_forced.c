@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "check.h"
+#include "suspended/modes.h"
 
 #include <complex.h>
 
@@ -183,21 +184,21 @@ static void resonances_are_natural_frequencies(void **state)
     assert_int_equal(strum_forced_resonances(forced, &motion, list, 64, &found), STRUM_OK);
     const int count = (int)found;
     for (int plane = 0; plane < 2; plane++) {
-        strum_spectrum *spectrum;
+        strum_modes *spectrum;
         int modes = 0;
         for (int i = 0; i < count; i++)
             modes += list[i].plane == (strum_plane)plane;
         assert_true(modes > 3);
-        assert_int_equal(
-            strum_modes_solve(&cable, (strum_plane)plane, modes + 1, false, &spectrum, NULL),
-            STRUM_OK);
-        assert_true(strum_spectrum_mode(spectrum, modes)->frequency > 12);
+        assert_int_equal(strum_modes_solve(
+                             &(strum_modes_params){cable, (strum_plane)plane, modes + 1, false},
+                             NULL, &spectrum, NULL),
+                         STRUM_OK);
+        assert_true(mode_at(spectrum, modes).frequency > 12);
         for (int i = 0; i < count; i++)
             if (list[i].plane == (strum_plane)plane)
-                check_relative(list[i].frequency,
-                               strum_spectrum_mode(spectrum, list[i].mode - 1)->frequency,
+                check_relative(list[i].frequency, mode_at(spectrum, list[i].mode - 1).frequency,
                                1e-12);
-        strum_spectrum_free(&spectrum);
+        strum_modes_free(spectrum);
     }
     for (int i = 0; i < count; i++) {
         if (list[i].plane != STRUM_IN_PLANE)

@@ -3,8 +3,8 @@
  * limits. */
 #include <strum/strum.h>
 
-
 #include "check.h"
+#include "suspended/modes.h"
 
 /* b/pi of tan(b/2) = b/2 - (4/lambda^2)(b/2)^3 (Irvine and Caughey), to 12 digits. */
 static void published_roots(void **state)
@@ -82,21 +82,24 @@ static void exact_cable_near_the_shallow_limit(void **state)
     const strum_cable cable = {.mu = mu, .mass_t = 1, .mass_n = 1};
     strum_handbook s;
     strum_handbook_of(&c, &cable, &s);
-    strum_spectrum *in, *out;
-    assert_int_equal(strum_modes_solve(&cable, STRUM_IN_PLANE, 4, false, &in, NULL), STRUM_OK);
-    assert_int_equal(strum_modes_solve(&cable, STRUM_OUT_OF_PLANE, 4, false, &out, NULL),
+    strum_modes *in, *out;
+    assert_int_equal(strum_modes_solve(&(strum_modes_params){cable, STRUM_IN_PLANE, 4, false},
+                                       NULL, &in, NULL),
                      STRUM_OK);
+    assert_int_equal(
+        strum_modes_solve(&(strum_modes_params){cable, STRUM_OUT_OF_PLANE, 4, false}, NULL,
+                          &out, NULL),
+        STRUM_OK);
     for (int i = 0; i < 4; i++) {
         const strum_symmetry symmetry = i % 2 == 0 ? STRUM_ANTISYMMETRIC : STRUM_SYMMETRIC;
         const double shallow = strum_handbook_in_plane(&s, symmetry, i / 2 + 1);
-        const double exact = strum_spectrum_mode(in, i)->frequency;
+        const double exact = mode_at(in, i).frequency;
         check_relative((1 - exact / shallow) / (mu * mu), drop[i], 0.01);
-        check_absolute(1 - strum_spectrum_mode(out, i)->frequency /
-                               strum_handbook_string(&s, i + 1),
+        check_absolute(1 - mode_at(out, i).frequency / strum_handbook_string(&s, i + 1),
                        0.03267 * mu * mu, i == 0 ? 1e-6 : 2e-4);
     }
-    strum_spectrum_free(&in);
-    strum_spectrum_free(&out);
+    strum_modes_free(in);
+    strum_modes_free(out);
 }
 
 /* Inclined and taut: weight normal to the chord, tension along it. */
@@ -116,21 +119,24 @@ static void exact_cable_near_the_inclined_taut_limit(void **state)
         strum_handbook_of(&c, &cable, &s);
         check_relative(s.sag_ratio, load, 1e-6);
         check_relative(s.lambda_squared, lambda_squared, 1e-6);
-        strum_spectrum *in, *out;
-        assert_int_equal(strum_modes_solve(&cable, STRUM_IN_PLANE, 4, false, &in, NULL),
-                         STRUM_OK);
-        assert_int_equal(strum_modes_solve(&cable, STRUM_OUT_OF_PLANE, 4, false, &out, NULL),
-                         STRUM_OK);
+        strum_modes *in, *out;
+        assert_int_equal(
+            strum_modes_solve(&(strum_modes_params){cable, STRUM_IN_PLANE, 4, false}, NULL, &in,
+                              NULL),
+            STRUM_OK);
+        assert_int_equal(
+            strum_modes_solve(&(strum_modes_params){cable, STRUM_OUT_OF_PLANE, 4, false}, NULL,
+                              &out, NULL),
+            STRUM_OK);
         /* below 4 pi^2: symmetric, antisymmetric, symmetric, antisymmetric */
         for (int k = 0; k < 4; k++) {
             const strum_symmetry symmetry = k % 2 == 0 ? STRUM_SYMMETRIC : STRUM_ANTISYMMETRIC;
-            check_relative(strum_spectrum_mode(in, k)->frequency,
+            check_relative(mode_at(in, k).frequency,
                            strum_handbook_in_plane(&s, symmetry, k / 2 + 1), 1e-6);
-            check_relative(strum_spectrum_mode(out, k)->frequency,
-                           strum_handbook_string(&s, k + 1), 1e-6);
+            check_relative(mode_at(out, k).frequency, strum_handbook_string(&s, k + 1), 1e-6);
         }
-        strum_spectrum_free(&in);
-        strum_spectrum_free(&out);
+        strum_modes_free(in);
+        strum_modes_free(out);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "suspended/modes.h"
 #include "core/suspended/modes.h"
 #include "core/suspended/strain.h"
 
@@ -18,7 +19,7 @@ static int count_below(const strum_cable *cable, double frequency)
 {
     int count = -1;
     strum_error fault = {0};
-    if (strum_modes_count(cable, frequency, &count, &fault) != STRUM_OK)
+    if (strum_modes_below(cable, frequency, &count, &fault) != STRUM_OK)
         fail_msg("%s", fault.reason);
     return count;
 }
@@ -64,21 +65,23 @@ static void random_spectra(void **state)
     for (int i = 0; i < 60; i++) {
         const strum_cable cable = random_cable(i % 3 == 0 ? 6 : 2);
         const int modes = 1 + rand() % 10;
-        strum_spectrum *spectrum;
+        strum_modes *spectrum;
         assert_int_equal(
-            strum_modes_solve(&cable, STRUM_IN_PLANE, modes, false, &spectrum, NULL), STRUM_OK);
+            strum_modes_solve(&(strum_modes_params){cable, STRUM_IN_PLANE, modes, false}, NULL,
+                              &spectrum, NULL),
+            STRUM_OK);
         for (int k = 0; k < modes; k++) {
-            const double w = strum_spectrum_mode(spectrum, k)->frequency;
-            const double below = k > 0 ? strum_spectrum_mode(spectrum, k - 1)->frequency : 0;
+            const double w = mode_at(spectrum, k).frequency;
+            const double below = k > 0 ? mode_at(spectrum, k - 1).frequency : 0;
             if (w - below < 1e-6 * w)
                 continue; /* a crossing: neither side of it is between two modes */
             if (count_below(&cable, w * (1 - 1e-9)) != k)
                 fail_msg("chi_m %.17g mu %.17g kappa %g: %d modes below mode %d", cable.chi_m,
                          cable.mu, cable.kappa_t, count_below(&cable, w * (1 - 1e-9)), k + 1);
         }
-        const double last = strum_spectrum_mode(spectrum, modes - 1)->frequency;
+        const double last = mode_at(spectrum, modes - 1).frequency;
         assert_in_range(count_below(&cable, last * (1 + 1e-9)), modes, modes + 1);
-        strum_spectrum_free(&spectrum);
+        strum_modes_free(spectrum);
     }
 }
 
@@ -88,19 +91,20 @@ static void strain_form_agrees(void **state)
     for (int i = 0; i < 40; i++) {
         const strum_cable cable = random_cable(2.5);
         const int modes = 1 + rand() % 8;
-        strum_spectrum *spectrum;
+        strum_modes *spectrum;
         assert_int_equal(
-            strum_modes_solve(&cable, STRUM_IN_PLANE, modes, true, &spectrum, NULL), STRUM_OK);
+            strum_modes_solve(&(strum_modes_params){cable, STRUM_IN_PLANE, modes, true}, NULL,
+                              &spectrum, NULL),
+            STRUM_OK);
         arena memory = {0};
         root_list list = {0};
         assert_int_equal(strain_roots(&cable, &spectrum->coordinate, spectrum->size + 8, modes,
                                       &memory, &list),
                          STRUM_OK);
         for (int k = 0; k < modes; k++)
-            check_relative(cimag(list.items[k].s), strum_spectrum_mode(spectrum, k)->frequency,
-                           1e-12);
+            check_relative(cimag(list.items[k].s), mode_at(spectrum, k).frequency, 1e-12);
         arena_free(&memory);
-        strum_spectrum_free(&spectrum);
+        strum_modes_free(spectrum);
     }
 }
 
@@ -109,13 +113,13 @@ static void refusals(void **state)
     (void)state;
     int count;
     strum_cable cable = {.mu = 0.5, .mass_t = 1, .mass_n = 1, .eta_n = 0.1};
-    assert_int_equal(strum_modes_count(&cable, 1, &count, NULL), STRUM_ERR_METHOD);
+    assert_int_equal(strum_modes_below(&cable, 1, &count, NULL), STRUM_ERR_METHOD);
     cable.eta_n = 0;
-    assert_int_equal(strum_modes_count(&cable, NAN, &count, NULL), STRUM_ERR_RANGE);
-    assert_int_equal(strum_modes_count(&cable, 0, &count, NULL), STRUM_ERR_RANGE);
-    assert_int_equal(strum_modes_count(&cable, 1e12, &count, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_modes_below(&cable, NAN, &count, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_modes_below(&cable, 0, &count, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_modes_below(&cable, 1e12, &count, NULL), STRUM_ERR_RANGE);
     cable.mass_t = 0;
-    assert_int_equal(strum_modes_count(&cable, 1, &count, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_modes_below(&cable, 1, &count, NULL), STRUM_ERR_RANGE);
 }
 
 int main(void)
