@@ -15,8 +15,9 @@
  * characteristic function.
  *
  * Ownership: structs are the caller's; a chain is made by strum_taut_make and ended by
- * strum_taut_free, and keeps copies of all it was given; likewise roots and shapes. All
- * functions are re-entrant; a chain, roots and a shape may be read by many threads at once.
+ * strum_taut_free, and keeps copies of all it was given. Roots need their chain no longer. A
+ * shape holds a counted reference to its chain: either may be freed first. All functions are
+ * re-entrant; a chain, roots and a shape may be read by many threads at once.
  */
 #ifndef STRUM_TAUT_H
 #define STRUM_TAUT_H
@@ -38,6 +39,11 @@ STRUM_BEGIN_DECLS
 /* Components passed by all evaluations of one solve (some 0.1 us each); beyond it a solve gives
  * up with STRUM_ERR_ACCURACY. */
 #define STRUM_TAUT_WORK_MAX 3e8
+
+/* `argument` of an error of this header. */
+typedef enum strum_taut_argument {
+    STRUM_TAUT_ARG_COMPONENTS = 1 /* `index`: which */
+} strum_taut_argument;
 
 /* ---- the chain ---- */
 
@@ -166,9 +172,6 @@ typedef struct strum_taut_query {
      * unknown. Only for a band. */
     const strum_taut_root *guesses;
     size_t guess_count;
-    /* Asked now and then (may be NULL); true ends the search with STRUM_ERR_CANCELLED. */
-    bool (*cancelled)(void *context);
-    void *context;
 } strum_taut_query;
 
 typedef struct strum_taut_roots {
@@ -193,7 +196,8 @@ typedef struct strum_taut_roots {
 } strum_taut_roots;
 
 strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *query,
-                              strum_taut_roots **roots, strum_error *fault);
+                              const strum_options *options, strum_taut_roots **roots,
+                              strum_error *error);
 void strum_taut_roots_free(strum_taut_roots **roots);
 
 /* One branch, followed from mode `mode` at zero damping through `count` ascending factors > 0
@@ -239,7 +243,8 @@ size_t strum_taut_shape_antinodes(const strum_taut_shape *shape,
  * spectral finite elements. Residuals are those of the roots, as in strum_taut_roots.
  * STRUM_ERR_METHOD where the second method would need too large a problem. */
 strum_status strum_taut_verify(const strum_taut *chain, const strum_taut_roots *roots,
-                               strum_verification *verification, strum_error *fault);
+                               const strum_options *options, strum_verification *verification,
+                               strum_error *error);
 
 STRUM_END_DECLS
 #endif

@@ -150,7 +150,7 @@ static void check(double k, double r, const cplx *roots)
     strum_taut *chain;
     strum_taut_roots *right = NULL;
     if (build(NULL, values, &chain, NULL) != STRUM_OK ||
-        strum_taut_solve(chain, &query, &right, NULL) != STRUM_OK)
+        strum_taut_solve(chain, &query, NULL, &right, NULL) != STRUM_OK)
         exit(1);
     for (long mode = 1; mode <= 2; mode++) {
         bool same = false;

@@ -102,7 +102,7 @@ static void roots(void *data)
     task *t = data;
     strum_taut_roots *found;
     strum_error fault = {0};
-    if (strum_taut_solve(t->chain, &t->query, &found, &fault) != STRUM_OK)
+    if (strum_taut_solve(t->chain, &t->query, NULL, &found, &fault) != STRUM_OK)
         fail("strum_taut_solve", fault.reason);
     strum_taut_roots_free(&found);
 }
@@ -115,7 +115,7 @@ static void damped_elements(void *data)
     const task *t = data;
     strum_verification v;
     strum_error fault = {0};
-    if (strum_taut_verify(t->chain, t->found, &v, &fault) != STRUM_OK)
+    if (strum_taut_verify(t->chain, t->found, NULL, &v, &fault) != STRUM_OK)
         fail("strum_taut_verify", fault.reason);
     if (v.modes_expected != t->found->expected || !(v.max_relative_difference < 1e-9))
         fail("damped elements", "they do not agree");
@@ -242,7 +242,7 @@ static void damped_band(void)
     const double ours = bench_median_us(roots, &t, 15);
     bench_time("taut/baseline-35-damped-roots/strum", ours);
     strum_taut_roots *found;
-    if (strum_taut_solve(t.chain, &t.query, &found, &fault) != STRUM_OK)
+    if (strum_taut_solve(t.chain, &t.query, NULL, &found, &fault) != STRUM_OK)
         fail("baseline", fault.reason);
     if (found->expected != 35 || found->found != 35)
         fail("baseline", "35 roots are right");

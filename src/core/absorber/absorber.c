@@ -58,9 +58,8 @@ static strum_status roots_of(const strum_absorber_problem *p, const strum_taut *
     strum_taut_query query = {.numbers = p->modes,
                               .count = p->modes != NULL ? p->mode_count : 0,
                               .lowest = p->lowest,
-                              .highest = p->highest,
-                              .cancelled = p->cancelled,
-                              .context = p->context};
+                              .highest = p->highest};
+    const strum_options options = {p->cancelled, p->context, 0};
     if (p->modes == NULL) {
         /* whatever decays faster than twice its own frequency limits nothing */
         query.max_decay = 2 * p->highest;
@@ -69,7 +68,7 @@ static strum_status roots_of(const strum_absorber_problem *p, const strum_taut *
             query.guess_count = guesses->count;
         }
     }
-    return strum_taut_solve(chain, &query, roots, fault);
+    return strum_taut_solve(chain, &query, &options, roots, fault);
 }
 
 static double damping_ratio(const strum_taut_root *root)

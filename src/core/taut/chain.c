@@ -2,6 +2,7 @@
 /* Chains: checking what was given, resolving limits, and their transfer matrices. */
 #include "core/taut/taut.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 
 strum_taut_link strum_taut_bar(double length, double mass)
@@ -221,7 +222,8 @@ static strum_status fill(strum_taut *chain, const strum_taut_component *given, s
     for (size_t i = 0; i < count; i++) {
         const char *why = component_fault(&given[i]);
         if (why != NULL)
-            return error_set(fault, STRUM_ERR_RANGE, "component %zu: %s", i + 1, why);
+            return error_at(fault, STRUM_ERR_RANGE, STRUM_TAUT_ARG_COMPONENTS, i,
+                            "component %zu: %s", i + 1, why);
         taut_component *c = &chain->components[i];
         const strum_status status = make_component(&given[i], c, fault);
         chain->count = i + 1;
@@ -256,6 +258,7 @@ strum_status strum_taut_make(const strum_taut_component *components, size_t coun
         free(made);
         return error_set(fault, STRUM_ERR_MEMORY, "no memory for %zu components", count);
     }
+    made->references = 1;
     made->free_left = left == STRUM_TAUT_FREE;
     made->free_right = right == STRUM_TAUT_FREE;
     const strum_status status = fill(made, components, count, fault);
@@ -265,16 +268,24 @@ strum_status strum_taut_make(const strum_taut_component *components, size_t coun
     return status;
 }
 
+strum_taut *taut_ref(const strum_taut *chain)
+{
+    strum_taut *counted = (strum_taut *)(uintptr_t)chain; /* only its count changes */
+    atomic_fetch_add(&counted->references, 1);
+    return counted;
+}
+
 void strum_taut_free(strum_taut **chain)
 {
-    if (*chain == NULL)
-        return;
-    for (size_t i = 0; i < (*chain)->count; i++)
-        if ((*chain)->components[i].kind == TAUT_BODY)
-            free((*chain)->components[i].body.links);
-    free((*chain)->components);
-    free(*chain);
+    strum_taut *c = *chain;
     *chain = NULL;
+    if (c == NULL || atomic_fetch_sub(&c->references, 1) > 1)
+        return;
+    for (size_t i = 0; i < c->count; i++)
+        if (c->components[i].kind == TAUT_BODY)
+            free(c->components[i].body.links);
+    free(c->components);
+    free(c);
 }
 
 double strum_taut_length(const strum_taut *chain)
@@ -336,10 +347,10 @@ static strum_status multiply(const strum_taut *chain, size_t first, size_t last,
         taut_factor n;
         taut_component_factor(&chain->components[i], &at, &n);
         if (n.den.v == 0.0)
-            return error_set(fault, STRUM_ERR_IMPOSSIBLE,
-                             "component %zu resonates with both ends held: its matrix has a "
-                             "pole at this frequency",
-                             i + 1);
+            return error_at(fault, STRUM_ERR_IMPOSSIBLE, STRUM_TAUT_ARG_COMPONENTS, i,
+                            "component %zu resonates with both ends held: its matrix has a "
+                            "pole at this frequency",
+                            i + 1);
         const cplx scale = over(exp(n.log_scale), n.den.v);
         const cplx a = f[0], b = f[1];
         f[0] = times(scale, times(n.n11.v, a) + times(n.n12.v, f[2]));

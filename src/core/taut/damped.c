@@ -22,10 +22,10 @@ static strum_status no_memory(taut_solve *s)
 
 static strum_status stopped(taut_solve *s)
 {
-    return error_set(s->fault, s->search.status,
-                     s->search.status == STRUM_ERR_CANCELLED
-                         ? "cancelled"
-                         : "the roots were not all found within the work allowed; ask fewer "
+    return s->search.status == s->search.work.status
+               ? work_error(&s->search.work, s->fault)
+               : error_set(s->fault, s->search.status,
+                           "the roots were not all found within the work allowed; ask fewer "
                            "modes or a narrower band");
 }
 
@@ -303,7 +303,7 @@ static strum_status give(taut_solve *s, size_t i, bool overdamped)
         s->out->max_residual =
             fmax(s->out->max_residual, cabs(over(value.f, value.d)) / scale_of(s, root));
     out.exceptional = exceptional(s, i);
-    return taut_solve_add(s, out, overdamped);
+    return taut_roots_add(s->out, out, overdamped, s->fault);
 }
 
 /* Overdamped roots: all that are known on the axis within `decay`, and those of modes asked. */
@@ -451,7 +451,8 @@ static strum_status solve_run(taut_solve *s, long first, long last)
             const bool rigid = s->branches[k - s->first].s[0] == 0.0;
             out->lost += !rigid;
             if (rigid)
-                status = taut_solve_add(s, (strum_taut_root){k, 0.0, 0.0, INFINITY}, false);
+                status = taut_roots_add(s->out, (strum_taut_root){k, 0.0, 0.0, INFINITY}, false,
+                                        s->fault);
         }
         for (size_t i = 0; i < s->known && status == STRUM_OK; i++)
             if (s->mode[i] == k && cimag(s->s[i]) > 0.0)
@@ -495,7 +496,7 @@ static strum_status solve_by_guesses(taut_solve *s, bool *done)
         return STRUM_OK;
     for (size_t i = 0; i < s->known && status == STRUM_OK; i++)
         if (taut_inside(&box, s->s[i]))
-            status = taut_solve_add(s, plain_root(s, i), false);
+            status = taut_roots_add(s->out, plain_root(s, i), false, s->fault);
     s->out->lowest = box.im_lo;
     s->out->highest = box.im_hi;
     s->out->max_decay = -box.re_lo;
@@ -551,10 +552,10 @@ strum_status taut_solve_muller(taut_solve *s)
         found[known++] = root;
         const cplx wanted = CMPLX(-certain[i].decay, certain[i].frequency);
         out->hopped += cabs(root - wanted) > SAME * scale_of(s, wanted);
-        status = taut_solve_add(
-            s,
+        status = taut_roots_add(
+            s->out,
             (strum_taut_root){certain[i].mode, cimag(root), fmax(-creal(root), 0.0), INFINITY},
-            false);
+            false, s->fault);
     }
     for (size_t i = 0; i < count; i++) {
         const cplx wanted = CMPLX(-certain[i].decay, certain[i].frequency);

@@ -21,9 +21,12 @@ static taut_value value_at(taut_search *search, dual s, dual factor)
     const taut_at at = {s, factor};
     taut_value value;
     taut_characteristic(search->chain, &at, &value);
-    if ((++search->evaluations & 63) == 0 && search->cancelled != NULL &&
-        search->cancelled(search->context))
-        search->status = STRUM_ERR_CANCELLED;
+    if ((++search->evaluations & 63) == 0) {
+        const strum_status status =
+            work_spend(&search->work, 64 * 0.1 * (double)search->chain->count);
+        if (status != STRUM_OK)
+            search->status = status;
+    }
     if ((double)search->evaluations * (double)search->chain->count > STRUM_TAUT_WORK_MAX)
         search->status = STRUM_ERR_ACCURACY;
     return value;

@@ -5,7 +5,7 @@
 #include "core/taut/taut.h"
 
 struct strum_taut_shape {
-    const strum_taut *chain;
+    strum_taut *chain; /* a counted reference */
     taut_at at;
     double *x;   /* of the count + 1 stations, left of each component and at the right end */
     cplx *y, *v; /* there; the same block as x */
@@ -15,7 +15,7 @@ struct strum_taut_shape {
     size_t antinode_count, antinode_room;
 };
 
-/* y and V at distance x into component i. */
+/* Of state.c, which nodes.c and shape.c stand on: y and V at distance x into component i. */
 void taut_shape_inside(const strum_taut_shape *shape, size_t i, double x, cplx *y, cplx *v);
 /* The same at x from the left end of the chain. */
 void taut_shape_point(const strum_taut_shape *shape, double x, strum_taut_point *point);

@@ -13,6 +13,12 @@
 
 /* ---- undamped chains ---- */
 
+/* Estimated microseconds of one shot along the chain. */
+static double shot_us(const strum_taut *chain)
+{
+    return 0.05 * (double)chain->count;
+}
+
 static strum_status undamped(taut_solve *s, const long *numbers, size_t count)
 {
     const strum_taut *chain = s->search.chain;
@@ -35,10 +41,10 @@ static strum_status undamped(taut_solve *s, const long *numbers, size_t count)
         out->evaluations += 3;
         out->expected++;
         out->found += below.count < numbers[i] && numbers[i] <= above.count;
-        status = taut_solve_add(s, (strum_taut_root){numbers[i], w[i], 0.0, INFINITY}, false);
-        if (s->search.cancelled != NULL && (i & 15) == 0 &&
-            s->search.cancelled(s->search.context))
-            status = error_set(s->fault, STRUM_ERR_CANCELLED, "cancelled");
+        status = taut_roots_add(s->out, (strum_taut_root){numbers[i], w[i], 0.0, INFINITY},
+                                false, s->fault);
+        if (status == STRUM_OK && work_spend(&s->search.work, 3 * shot_us(chain)) != STRUM_OK)
+            status = work_error(&s->search.work, s->fault);
     }
     if (status == STRUM_OK && out->found != out->expected)
         status = error_set(s->fault, STRUM_ERR_ACCURACY,
@@ -75,32 +81,6 @@ static strum_status undamped_band(taut_solve *s)
     return status;
 }
 
-/* ---- results ---- */
-
-strum_status taut_solve_add(taut_solve *s, strum_taut_root root, bool overdamped)
-{
-    strum_taut_roots *out = s->out;
-    strum_taut_root **list = overdamped ? &out->overdamped : &out->roots;
-    size_t *count = overdamped ? &out->overdamped_count : &out->count;
-    /* rooms of 0, 16, 32, 64, ... */
-    if (*count == 0 || (*count >= 16 && (*count & (*count - 1)) == 0)) {
-        strum_taut_root *more = realloc(*list, (*count < 16 ? 16 : 2 * *count) * sizeof **list);
-        if (more == NULL)
-            return error_set(s->fault, STRUM_ERR_MEMORY, "no memory for roots");
-        *list = more;
-    }
-    (*list)[(*count)++] = root;
-    return STRUM_OK;
-}
-
-static int by_frequency(const void *a, const void *b)
-{
-    const strum_taut_root *x = a, *y = b;
-    if (x->frequency != y->frequency)
-        return x->frequency < y->frequency ? -1 : 1;
-    return (x->decay > y->decay) - (x->decay < y->decay);
-}
-
 static strum_status check_query(const strum_taut *chain, const strum_taut_query *q,
                                 strum_error *fault)
 {
@@ -125,7 +105,8 @@ static strum_status check_query(const strum_taut *chain, const strum_taut_query 
 }
 
 strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *query,
-                              strum_taut_roots **roots, strum_error *fault)
+                              const strum_options *options, strum_taut_roots **roots,
+                              strum_error *fault)
 {
     *roots = NULL;
     strum_status status = check_query(chain, query, fault);
@@ -134,11 +115,10 @@ strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *q
     strum_taut_roots *out = calloc(1, sizeof *out);
     if (out == NULL)
         return error_set(fault, STRUM_ERR_MEMORY, "no memory for roots");
-    taut_solve s = {
-        .search = {.chain = chain, .cancelled = query->cancelled, .context = query->context},
-        .query = query,
-        .out = out,
-        .fault = fault};
+    taut_solve s = {.search = {.chain = chain, .work = work_begin(options)},
+                    .query = query,
+                    .out = out,
+                    .fault = fault};
     if (chain->damped)
         status = taut_solve_damped(&s);
     else if (query->count > 0)
@@ -147,24 +127,12 @@ strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *q
         status = undamped_band(&s);
     if (status == STRUM_OK && query->method == STRUM_TAUT_MULLER)
         status = taut_solve_muller(&s);
-    if (status == STRUM_OK && query->count == 0 && out->count > 1)
-        qsort(out->roots, out->count, sizeof *out->roots, by_frequency);
-    if (status == STRUM_OK && out->overdamped_count > 1)
-        qsort(out->overdamped, out->overdamped_count, sizeof *out->overdamped, by_frequency);
+    if (status == STRUM_OK)
+        taut_roots_sort(out, query->count == 0);
     out->evaluations += s.search.evaluations;
     taut_solve_clear(&s);
     if (status != STRUM_OK)
         strum_taut_roots_free(&out);
     *roots = out;
     return status;
-}
-
-void strum_taut_roots_free(strum_taut_roots **roots)
-{
-    if (*roots == NULL)
-        return;
-    free((*roots)->roots);
-    free((*roots)->overdamped);
-    free(*roots);
-    *roots = NULL;
 }

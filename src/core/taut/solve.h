@@ -2,6 +2,7 @@
 #ifndef CORE_TAUT_SOLVE_H
 #define CORE_TAUT_SOLVE_H
 
+#include "core/taut/roots.h"
 #include "core/taut/taut.h"
 
 /* One solve. Known roots of the damped chain: s (upper half plane or real axis) and the mode at
@@ -18,8 +19,6 @@ typedef struct taut_solve {
     taut_branch *branches; /* theirs, branches[k - first] */
 } taut_solve;
 
-/* Appends to the roots given out. */
-strum_status taut_solve_add(taut_solve *s, strum_taut_root root, bool overdamped);
 strum_status taut_solve_damped(taut_solve *s);
 /* Replaces the roots given out by those of Muller's method, and compares. */
 strum_status taut_solve_muller(taut_solve *s);

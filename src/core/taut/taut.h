@@ -10,12 +10,14 @@
 
 #include <complex.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
 #include <strum/taut.h>
 
 #include "core/numerics/status.h"
+#include "core/numerics/work.h"
 
 typedef double _Complex cplx;
 
@@ -128,6 +130,7 @@ typedef struct taut_component {
 } taut_component;
 
 struct strum_taut {
+    atomic_uint references; /* the caller's, and one of each shape */
     bool free_left, free_right, damped;
     bool moves;     /* some component lets y differ at its ends */
     int dampers;    /* components with finite damping */
@@ -137,6 +140,9 @@ struct strum_taut {
     size_t count;
     taut_component *components;
 };
+
+/* A counted reference, given back by strum_taut_free. */
+strum_taut *taut_ref(const strum_taut *chain);
 
 /* ---- component models: one file a physical model ---- */
 
@@ -195,8 +201,7 @@ double taut_spacing(const strum_taut *chain);
 /* Shared by the searches of one solve. */
 typedef struct taut_search {
     const strum_taut *chain;
-    bool (*cancelled)(void *);
-    void *context;
+    work work;
     double spacing; /* typical distance of modes, rad/s */
     long evaluations;
     strum_status status; /* of the first failure; searches end early when not STRUM_OK */

@@ -101,7 +101,7 @@ static double bisect(const strum_taut *chain, const taut_assembly *a, long mode,
 }
 
 static strum_status verify_undamped(const strum_taut *chain, const strum_taut_roots *roots,
-                                    strum_verification *v, strum_error *fault)
+                                    work *spent, strum_verification *v, strum_error *fault)
 {
     taut_assembly a;
     v->method = "assembled dynamic stiffness, Wittrick-Williams count, bisection";
@@ -114,6 +114,11 @@ static strum_status verify_undamped(const strum_taut *chain, const strum_taut_ro
         status = error_set(fault, STRUM_ERR_MEMORY, "no memory for %d unknowns", a.size);
     for (size_t i = 0; i < roots->count && status == STRUM_OK; i++) {
         const strum_taut_root *r = &roots->roots[i];
+        /* some 35 counts, each a factorisation of the band */
+        if (work_spend(spent, 35e-3 * a.size * (a.band + 1.0) * (a.band + 1.0)) != STRUM_OK) {
+            status = work_error(spent, fault);
+            break;
+        }
         if (r->frequency ==
             0.0) { /* a rigid motion: counted well below the first elastic one */
             const double low = i + 1 < roots->count && roots->roots[i + 1].frequency > 0.0
@@ -157,12 +162,12 @@ static void dense(const taut_assembly *a, double *k, double *c, double *m, doubl
 /* All s of (s^2 M + s C + K) x = 0: with z = 1/mu, mu^2 + mu L^{-1} C L^{-T} + L^{-1} M L^{-T}
  * = 0 for K = L L' (shifted), linearised; the roots of interest have the largest mu. Re in
  * `re`, Im in `im` (2 n of each; infinite ones as INFINITY). */
-static strum_status quadratic_roots(const taut_assembly *a, double sigma, double *work,
+static strum_status quadratic_roots(const taut_assembly *a, double sigma, double *room,
                                     double *re, double *im, strum_error *fault)
 {
     const int n = a->size;
     const size_t square = (size_t)n * (size_t)n;
-    double *k = work, *c = k + square, *m = c + square, *companion = m + square;
+    double *k = room, *c = k + square, *m = c + square, *companion = m + square;
     dense(a, k, c, m, sigma);
     lapack_int info = LAPACKE_dpotrf(LAPACK_ROW_MAJOR, 'L', n, k, n);
     if (info == 0)
@@ -218,7 +223,7 @@ static void compare(const strum_taut_roots *roots, size_t count, const double *r
 }
 
 static strum_status verify_damped(const strum_taut *chain, const strum_taut_roots *roots,
-                                  strum_verification *v, strum_error *fault)
+                                  work *spent, strum_verification *v, strum_error *fault)
 {
     taut_assembly a;
     v->method = "spectral finite elements, quadratic eigenproblem";
@@ -227,25 +232,29 @@ static strum_status verify_damped(const strum_taut *chain, const strum_taut_root
     if (status != STRUM_OK)
         return status;
     const size_t n = (size_t)a.size;
-    double *work = malloc((7 * n * n + 4 * n) * sizeof *work);
-    if (work == NULL) {
+    double *room = malloc((7 * n * n + 4 * n) * sizeof *room);
+    if (work_spend(spent, 0.02 * (double)(n * n * n)) != STRUM_OK) {
+        status = work_error(spent, fault);
+    } else if (room == NULL) {
         status = error_set(fault, STRUM_ERR_MEMORY, "no memory for %zu unknowns", n);
     } else {
-        double *re = work + 7 * n * n, *im = re + 2 * n;
-        status = quadratic_roots(&a, sqrt(roots->lowest * roots->highest), work, re, im, fault);
+        double *re = room + 7 * n * n, *im = re + 2 * n;
+        status = quadratic_roots(&a, sqrt(roots->lowest * roots->highest), room, re, im, fault);
         if (status == STRUM_OK)
             compare(roots, 2 * n, re, im, v);
     }
-    free(work);
+    free(room);
     taut_assembly_free(&a);
     return status;
 }
 
 strum_status strum_taut_verify(const strum_taut *chain, const strum_taut_roots *roots,
-                               strum_verification *verification, strum_error *fault)
+                               const strum_options *options, strum_verification *verification,
+                               strum_error *fault)
 {
-    *verification = (strum_verification){.modes_found = roots->found,
-                                              .max_residual = roots->max_residual};
-    return chain->damped ? verify_damped(chain, roots, verification, fault)
-                         : verify_undamped(chain, roots, verification, fault);
+    work w = work_begin(options);
+    *verification =
+        (strum_verification){.modes_found = roots->found, .max_residual = roots->max_residual};
+    return chain->damped ? verify_damped(chain, roots, &w, verification, fault)
+                         : verify_undamped(chain, roots, &w, verification, fault);
 }

@@ -475,17 +475,11 @@ void chain_refuse(const strum_error *fault, strum_status status, problem *p)
     const int http = status == STRUM_ERR_MEMORY || status == STRUM_ERR_CANCELLED ? 503
                      : status == STRUM_ERR_INTERNAL                              ? 500
                                                                                  : 422;
-    size_t component;
     problem_set(p, http, "%s", reason);
-    if (http == 422 && sscanf(reason, "component %zu", &component) == 1 && component > 0) {
+    if (http == 422 && fault->argument == STRUM_TAUT_ARG_COMPONENTS &&
+        fault->index != STRUM_NO_INDEX) {
         char pointer[64];
-        (void)snprintf(pointer, sizeof pointer, "/components/%zu", component - 1);
+        (void)snprintf(pointer, sizeof pointer, "/components/%zu", fault->index);
         problem_add(p, pointer, "%s", reason);
     }
-}
-
-bool chain_cancelled(void *context)
-{
-    const _Atomic bool *cancel = context;
-    return cancel != NULL && atomic_load(cancel);
 }

@@ -84,7 +84,5 @@ bool chain_look(const chain_input *in, const chain_variables *x, size_t index,
 void chain_write_root(json_writer *json, const strum_taut_root *root);
 /* Turns a fault of the core into a problem, laid at the component that it names. */
 void chain_refuse(const strum_error *fault, strum_status status, problem *p);
-/* strum_taut_query.cancelled for an answer: `context` is its _Atomic bool. */
-bool chain_cancelled(void *context);
 
 #endif

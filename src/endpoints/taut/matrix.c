@@ -88,7 +88,7 @@ static bool respond(const void *data, answer *a)
     for (size_t i = 0; i < r->angular_frequencies.count && status == STRUM_OK; i++) {
         status = write_at(json, chain, r->in.components.count, r->angular_frequencies.items[i],
                           &fault);
-        if (a->cancel != NULL && atomic_load(a->cancel))
+        if (answer_cancelled(a))
             status = STRUM_ERR_CANCELLED;
     }
     json_close_array(json);

@@ -231,7 +231,8 @@ static strum_status write_verification(json_writer *json, const strum_taut *chai
                                        strum_error *fault)
 {
     strum_verification v;
-    const strum_status status = strum_taut_verify(chain, roots, &v, fault);
+    const strum_options options = answer_options(a);
+    const strum_status status = strum_taut_verify(chain, roots, &options, &v, fault);
     if (status == STRUM_ERR_METHOD) {
         answer_warn(a, "not verified: %s; ask a narrower band", fault->reason);
         return STRUM_OK;
@@ -297,7 +298,7 @@ static strum_status write_result(const request *r, const strum_taut *chain,
     json_open_array(json);
     for (size_t i = 0; i < roots->count && status == STRUM_OK; i++) {
         status = write_mode(json, r, chain, &roots->roots[i], fault);
-        if (a->cancel != NULL && atomic_load(a->cancel))
+        if (answer_cancelled(a))
             status = STRUM_ERR_CANCELLED;
     }
     json_close_array(json);
@@ -327,15 +328,14 @@ static bool respond(const void *data, answer *a)
                                     .highest = by_band(r) ? r->band_rad_per_s.items[1] : 0.0,
                                     .max_decay = by_band(r) ? r->max_decay_per_s : 0.0,
                                     .method = r->method == 1 ? STRUM_TAUT_MULLER
-                                                             : STRUM_TAUT_CERTIFIED,
-                                    .cancelled = a->cancel != NULL ? chain_cancelled : NULL,
-                                    .context = (void *)(uintptr_t)a->cancel};
+                                                             : STRUM_TAUT_CERTIFIED};
+    const strum_options options = answer_options(a);
     strum_error fault = {0};
     strum_taut *chain = NULL;
     strum_taut_roots *roots = NULL;
     strum_status status = chain_make(&r->in, NULL, &chain, &fault);
     if (status == STRUM_OK)
-        status = strum_taut_solve(chain, &query, &roots, &fault);
+        status = strum_taut_solve(chain, &query, &options, &roots, &fault);
     if (status == STRUM_OK) {
         a->theory = strum_taut_is_damped(chain)
                         ? "taut chain by transfer matrices (Levesque 1997): branches followed "

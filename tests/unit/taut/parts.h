@@ -103,7 +103,7 @@ static inline strum_taut_roots *roots_of(const strum_taut *chain, long modes, do
                                     .max_decay = max_decay};
     strum_taut_roots *roots = NULL;
     strum_error fault = {0};
-    if (strum_taut_solve(chain, &query, &roots, &fault) != STRUM_OK)
+    if (strum_taut_solve(chain, &query, NULL, &roots, &fault) != STRUM_OK)
         fail_msg("roots: %s", fault.reason);
     assert_int_equal(roots->expected, roots->found);
     return roots;

@@ -269,7 +269,7 @@ static void exceptional_points_are_recognised(void **state)
     /* by number too: both modes end there */
     const long numbers[2] = {1, 2};
     const strum_taut_query query = {.numbers = numbers, .count = 2};
-    assert_int_equal(strum_taut_solve(chain, &query, &roots, NULL), STRUM_OK);
+    assert_int_equal(strum_taut_solve(chain, &query, NULL, &roots, NULL), STRUM_OK);
     assert_int_equal(roots->count, 2);
     assert_int_equal(roots->lost, 0);
     for (int i = 0; i < 2; i++) {
@@ -312,7 +312,7 @@ static void muller_is_watched(void **state)
         const strum_taut_query query = {
             .lowest = 0.5, .highest = 11.0, .max_decay = 12.0, .method = STRUM_TAUT_MULLER};
         strum_taut_roots *muller, *certain = roots_of(chain, 0, 0.5, 11.0, 12.0);
-        assert_int_equal(strum_taut_solve(chain, &query, &muller, NULL), STRUM_OK);
+        assert_int_equal(strum_taut_solve(chain, &query, NULL, &muller, NULL), STRUM_OK);
         assert_int_equal(muller->expected, certain->expected);
         assert_int_equal(muller->found, muller->expected - muller->missed);
         for (size_t i = 0; i < muller->count; i++) { /* what it gives are roots */
@@ -348,7 +348,7 @@ static void guesses_are_certified(void **state)
                               .guesses = guesses->roots,
                               .guess_count = guesses->count};
     for (int i = 0; i < 2; i++) { /* all of them, then too few */
-        assert_int_equal(strum_taut_solve(after, &query, &roots, NULL), STRUM_OK);
+        assert_int_equal(strum_taut_solve(after, &query, NULL, &roots, NULL), STRUM_OK);
         assert_int_equal(roots->expected, 9);
         assert_int_equal(roots->found, 9);
         assert_int_equal(roots->count, full->count);
@@ -383,7 +383,7 @@ static void a_conjugate_is_no_other_root(void **state)
                                     .max_decay = 22.0,
                                     .guesses = guesses,
                                     .guess_count = 2};
-    assert_int_equal(strum_taut_solve(chain, &query, &roots, NULL), STRUM_OK);
+    assert_int_equal(strum_taut_solve(chain, &query, NULL, &roots, NULL), STRUM_OK);
     assert_int_equal(roots->count, 2);
     for (size_t k = 0; k < 2; k++)
         check_relative(roots->roots[k].frequency, full->roots[k].frequency, 1e-12);
@@ -465,7 +465,7 @@ static void random_chains_agree_with_a_second_method(void **state)
         strum_taut_roots *roots =
             roots_of(chain, 0, 0.9 * low + 1e-3, 0.5 * (high + frequency_of(chain, 9)), high);
         strum_verification v;
-        if (strum_taut_verify(chain, roots, &v, NULL) == STRUM_OK) {
+        if (strum_taut_verify(chain, roots, NULL, &v, NULL) == STRUM_OK) {
             assert_int_equal(v.modes_expected, v.modes_found);
             assert_true(v.max_relative_difference < 1e-8);
             assert_true(v.max_residual < 1e-11);
@@ -487,14 +487,14 @@ static void a_search_can_be_cancelled(void **state)
     (void)state;
     strum_taut *chain = levesque(9.0, 0.12, 2240.0);
     int asked = 0;
-    const strum_taut_query query = {.lowest = 1.0,
-                                    .highest = 200.0,
-                                    .max_decay = 40.0,
-                                    .cancelled = stop,
-                                    .context = &asked};
+    const strum_taut_query query = {.lowest = 1.0, .highest = 200.0, .max_decay = 40.0};
+    const strum_options options = {stop, &asked, 0}, little = {.work_max = 50};
     strum_taut_roots *roots;
     strum_error fault;
-    assert_int_equal(strum_taut_solve(chain, &query, &roots, &fault), STRUM_ERR_CANCELLED);
+    assert_int_equal(strum_taut_solve(chain, &query, &options, &roots, &fault),
+                     STRUM_ERR_CANCELLED);
+    assert_null(roots);
+    assert_int_equal(strum_taut_solve(chain, &query, &little, &roots, &fault), STRUM_ERR_WORK);
     assert_null(roots);
     strum_taut_free(&chain);
 }

@@ -291,7 +291,7 @@ static void a_thousand_components(void **state)
     strum_taut *chain = many_masses(1000);
     strum_taut_roots *roots = roots_of(chain, 1000, 0, 0, 0);
     strum_verification v;
-    assert_int_equal(strum_taut_verify(chain, roots, &v, NULL), STRUM_OK);
+    assert_int_equal(strum_taut_verify(chain, roots, NULL, &v, NULL), STRUM_OK);
     assert_int_equal(v.modes_expected, 1000);
     assert_int_equal(v.modes_found, 1000);
     assert_true(v.max_relative_difference < 1e-11);
@@ -502,7 +502,7 @@ static void random_chains_agree_with_a_second_method(void **state)
             chain_of(parts, count + 1, (strum_taut_end)(n & 1), (strum_taut_end)((n >> 1) & 1));
         strum_taut_roots *roots = roots_of(chain, 20, 0, 0, 0);
         strum_verification v;
-        assert_int_equal(strum_taut_verify(chain, roots, &v, NULL), STRUM_OK);
+        assert_int_equal(strum_taut_verify(chain, roots, NULL, &v, NULL), STRUM_OK);
         assert_int_equal(v.modes_expected, 20);
         /* what short bodies leave of the second method's digits */
         assert_true(v.max_relative_difference < 1e-6);
@@ -529,10 +529,47 @@ static void bands_and_bad_queries(void **state)
                                      {.lowest = 0.0, .highest = 1.0, .max_decay = 1.0},
                                      {.lowest = 1.0, .highest = 2.0, .max_decay = NAN}};
     for (int i = 0; i < 4; i++) {
-        assert_int_equal(strum_taut_solve(chain, &bad[i], &roots, &fault), STRUM_ERR_RANGE);
+        assert_int_equal(strum_taut_solve(chain, &bad[i], NULL, &roots, &fault),
+                         STRUM_ERR_RANGE);
         assert_null(roots);
     }
     strum_taut_free(&chain);
+}
+
+/* A shape keeps what it needs of its chain, whichever is freed first (seen by
+ * AddressSanitizer): half a sine of a uniform string. */
+static void a_shape_outlives_its_chain(void **state)
+{
+    (void)state;
+    const strum_taut_component string = part_cable(100.0, 1.0, 10.0, 0.0);
+    const strum_taut_root first = {.mode = 1, .frequency = M_PI};
+    strum_taut *chain;
+    strum_taut_shape *shape;
+    strum_taut_point points[5];
+    assert_int_equal(
+        strum_taut_make(&string, 1, STRUM_TAUT_FIXED, STRUM_TAUT_FIXED, &chain, NULL),
+        STRUM_OK);
+    assert_int_equal(strum_taut_shape_make(chain, &first, &shape, NULL), STRUM_OK);
+    strum_taut_free(&chain);
+    assert_int_equal(strum_taut_shape_sample(shape, 5, points, NULL), STRUM_OK);
+    for (int k = 0; k < 5; k++)
+        check_absolute(creal(points[k].displacement), sin(M_PI * k / 4), 1e-12);
+    strum_taut_shape_free(&shape);
+}
+
+/* An error names the component by its number, not only in its text. */
+static void an_error_names_its_component(void **state)
+{
+    (void)state;
+    const strum_taut_component parts[] = {part_cable(100.0, 1.0, 10.0, 0.0), part_mass(1.0),
+                                          part_cable(100.0, 1.0, -1.0, 0.0)};
+    strum_taut *chain;
+    strum_error error = {0};
+    assert_int_equal(
+        strum_taut_make(parts, 3, STRUM_TAUT_FIXED, STRUM_TAUT_FIXED, &chain, &error),
+        STRUM_ERR_RANGE);
+    assert_int_equal(error.argument, STRUM_TAUT_ARG_COMPONENTS);
+    assert_int_equal(error.index, 2);
 }
 
 int main(void)
@@ -556,6 +593,8 @@ int main(void)
         cmocka_unit_test(shapes_satisfy_the_equations),
         cmocka_unit_test(random_chains_agree_with_a_second_method),
         cmocka_unit_test(bands_and_bad_queries),
+        cmocka_unit_test(a_shape_outlives_its_chain),
+        cmocka_unit_test(an_error_names_its_component),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

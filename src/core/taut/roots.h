@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lists of roots that a solve gives out. */
+#ifndef CORE_TAUT_ROOTS_H
+#define CORE_TAUT_ROOTS_H
+
+#include <strum/taut.h>
+
+/* Appends one. */
+strum_status taut_roots_add(strum_taut_roots *roots, strum_taut_root root, bool overdamped,
+                            strum_error *fault);
+/* By frequency, then decay: the overdamped, and the others where `oscillating` says so. */
+void taut_roots_sort(strum_taut_roots *roots, bool oscillating);
+
+#endif
