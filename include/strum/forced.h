@@ -143,9 +143,10 @@ void strum_response_free(strum_response *response);
 /* Integrates the first-order system from end 1 for two starting forces and combines them
  * (extrapolated midpoint rule, 1e-13 of the largest value a step). Fills `count` points at the
  * chi they carry, ascending. It shares nothing with the Galerkin method. STRUM_ERR_RANGE for a
- * frequency that is negative or not finite, STRUM_ERR_ACCURACY when the integration needs more
- * than STRUM_SHOOT_STEPS_MAX steps (some thousand waves along the cable) or overflows,
- * STRUM_ERR_MEMORY, STRUM_ERR_CANCELLED, STRUM_ERR_WORK. */
+ * cable as in strum_forced_solve and for a frequency that is negative or not finite,
+ * STRUM_ERR_ACCURACY when the integration needs more than STRUM_SHOOT_STEPS_MAX steps (some
+ * thousand waves along the cable) or overflows, STRUM_ERR_MEMORY, STRUM_ERR_CANCELLED,
+ * STRUM_ERR_WORK. */
 #define STRUM_SHOOT_STEPS_MAX 20000
 strum_status strum_forced_shoot(const strum_cable *cable, double frequency,
                                 const strum_end_motion *motion, strum_forced_point *points,

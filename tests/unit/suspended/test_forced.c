@@ -400,6 +400,10 @@ static void shooting_is_bounded(void **state)
     assert_int_equal(strum_forced_shoot(&cable, INFINITY, &motion, &at, 1, NULL, &fault),
                      STRUM_ERR_RANGE);
     assert_int_equal(fault.argument, STRUM_FORCED_ARG_FREQUENCY);
+    const strum_cable none = {.mu = NAN, .mass_t = 1, .mass_n = 1};
+    assert_int_equal(strum_forced_shoot(&none, 1, &motion, &at, 1, NULL, &fault),
+                     STRUM_ERR_RANGE);
+    assert_int_equal(fault.argument, STRUM_FORCED_ARG_CABLE);
     const strum_options few = {.work_max = 1000};
     assert_int_equal(strum_forced_shoot(&cable, 1e6, &motion, &at, 1, &few, &fault),
                      STRUM_ERR_WORK);

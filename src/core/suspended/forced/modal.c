@@ -1,13 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Forced motion in the complementary form. With a = m s^2 + eta s, the weak equation is
- *     INT G' . (tt'/a_t + nn'/a_n) F' dsigma + INT G . C F dsigma = G(end 2) . d   for all G,
- * in the unknowns of in_plane.h: (A + K(s)) f = r, r = b + constants' d, and c = from_unknowns f
- * + from_motion d. Without damping, and with damping proportional to mass, K(s) = -K/Omega with
- * Omega = -(s^2 + rate s), so that the free modes A phi = mu K phi, phi'K phi = 1, give f =
- * Omega h,   h = sum phi (phi.r)/(Omega mu - 1),   X = -(tt'/m_t + nn'/m_n) dh/dsigma, which is
- * the exact static answer at Omega = 0. Other damping solves the complex system at each
- * frequency.
+ *     INT G' . (tt'/a_t + nn'/a_n) F' dsigma + INT G . C F dsigma = G(end 2) . d   for all G.
+ * In the unknowns of in_plane.h it is
+ *     (A + K(s)) f = r,
+ *     r = b + constants' d,
+ *     c = from_unknowns f + from_motion d.
+ * Without damping, and with damping proportional to mass,
+ *     K(s) = -K/Omega,
+ *     Omega = -(s^2 + rate s),
+ * so that the free modes A phi = mu K phi, phi'K phi = 1, give
+ *     f = Omega h,
+ *     h = sum phi (phi.r)/(Omega mu - 1),
+ *     X = -(tt'/m_t + nn'/m_n) dh/dsigma,
+ * which is the exact static answer at Omega = 0. Other damping solves the complex system at
+ * each frequency.
  */
 #include "core/suspended/forced/modal.h"
 
