@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "endpoints/forced/tension.h"
+#include "endpoints/forced/answer.h"
 
 /* Frequencies of a curve that `verify` recomputes, besides all profiles. */
 #define VERIFIED_MAX 8
@@ -23,19 +23,6 @@ static void solving_free(solving *s)
     strum_forced_free(s->forced);
 }
 
-/* The field that holds the highest frequency. */
-static const char *highest_field(const forced_request *r)
-{
-    double curve = 0, profiles = 0;
-    for (int i = 0; i < forced_frequency_count(r); i++)
-        curve = fmax(curve, forced_frequency_at(r, i));
-    for (size_t i = 0; i < r->profiles_at.count; i++)
-        profiles = fmax(profiles, r->profiles_at.items[i]);
-    return profiles > curve                ? "/profiles_at"
-           : r->frequency_ratios.count > 0 ? "/frequency_ratios"
-                                           : "/frequency_ratio_max";
-}
-
 static bool solving_make(solving *s, const forced_request *r, const answer *a)
 {
     problem *p = a->problem;
@@ -50,7 +37,7 @@ static bool solving_make(solving *s, const forced_request *r, const answer *a)
     if (status != STRUM_OK) {
         cable_refuse(&fault, status, p);
         if (fault.argument == STRUM_FORCED_ARG_FREQUENCY)
-            problem_add(p, highest_field(r), "%s", fault.reason);
+            problem_add(p, forced_highest_field(r), "%s", fault.reason);
     }
     return status == STRUM_OK;
 }

@@ -284,14 +284,6 @@ strum_status strum_forced_solve(const strum_forced_params *params, const strum_o
     return status;
 }
 
-void strum_forced_free(strum_forced *f)
-{
-    if (f == NULL || atomic_fetch_sub(&f->references, 1) > 1)
-        return;
-    arena_free(&f->memory);
-    free(f);
-}
-
 /* Puts one real part of a part's unknowns where the response keeps them, and their constants
  * with them. */
 static void scatter(const forced_part *p, const double *v, int half, strum_response *response)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A forced response: its values along the cable and its largest tension. */
+/* A forced response: its life with the system it belongs to, its values along the cable and its largest tension. */
 #include <cblas.h>
 #include <math.h>
 #include <stdint.h>
@@ -9,6 +9,15 @@
 #include "core/suspended/forced/modal.h"
 #include "core/numerics/bracket.h"
 #include "core/numerics/peak.h"
+
+/* The last of the caller and the responses that lets go frees the system. */
+void strum_forced_free(strum_forced *f)
+{
+    if (f == NULL || atomic_fetch_sub(&f->references, 1) > 1)
+        return;
+    arena_free(&f->memory);
+    free(f);
+}
 
 strum_status strum_response_make(const strum_forced *f, strum_response **response,
                                  strum_error *error)
