@@ -94,11 +94,15 @@ typedef struct strum_resonance {
 strum_status strum_forced_solve(const strum_forced_params *params, const strum_options *options,
                                 strum_forced **forced, strum_error *error);
 
-/* Natural frequencies up to frequency_max with their residues for a motion: in plane and out of
- * plane as the system was solved for; ascending. Writes the first `room` of them to `list` and
- * their number to *count. STRUM_ERR_MEMORY: nothing was written. */
-strum_status strum_forced_resonances(const strum_forced *forced, const strum_end_motion *motion,
-                                     strum_resonance *list, size_t room, size_t *count);
+/* The natural frequencies up to frequency_max, in plane and out of plane as the system was
+ * solved for: their number. */
+size_t strum_forced_count(const strum_forced *forced);
+
+/* The i-th of them from 0, ascending over both planes, with its residue for a motion; without a
+ * motion (NULL) the residue is 0. STRUM_ERR_RANGE when there is no i-th, STRUM_ERR_MEMORY;
+ * *resonance is then as it was. */
+strum_status strum_forced_get(const strum_forced *forced, size_t i,
+                              const strum_end_motion *motion, strum_resonance *resonance);
 
 /* NULL is fine. */
 void strum_forced_free(strum_forced *forced);
@@ -139,9 +143,10 @@ void strum_response_free(strum_response *response);
 /* Integrates the first-order system from end 1 for two starting forces and combines them
  * (extrapolated midpoint rule, 1e-13 of the largest value a step). Fills `count` points at the
  * chi they carry, ascending. It shares nothing with the Galerkin method. STRUM_ERR_RANGE for a
- * frequency that is negative or not finite, STRUM_ERR_ACCURACY when the integration needs more
- * than STRUM_SHOOT_STEPS_MAX steps (some thousand waves along the cable) or overflows,
- * STRUM_ERR_MEMORY, STRUM_ERR_CANCELLED, STRUM_ERR_WORK. */
+ * cable as in strum_forced_solve and for a frequency that is negative or not finite,
+ * STRUM_ERR_ACCURACY when the integration needs more than STRUM_SHOOT_STEPS_MAX steps (some
+ * thousand waves along the cable) or overflows, STRUM_ERR_MEMORY, STRUM_ERR_CANCELLED,
+ * STRUM_ERR_WORK. */
 #define STRUM_SHOOT_STEPS_MAX 20000
 strum_status strum_forced_shoot(const strum_cable *cable, double frequency,
                                 const strum_end_motion *motion, strum_forced_point *points,

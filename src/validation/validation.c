@@ -71,7 +71,9 @@ typedef struct outcome {
     strbuf rows;  /* what was compared, as items of a JSON list */
     strbuf fault; /* a sentence where there was nothing to compare */
     comparison compared;
-    bool failed; /* memory ran out */
+    bool failed;    /* memory ran out */
+    int unanswered; /* status of a refusal that is no fault of the case, so that there is
+                       nothing to judge: out of memory, cancelled; or 0 */
 } outcome;
 
 static void outcome_clear(outcome *o)
@@ -141,6 +143,8 @@ static void run_case(const validation_case *one, const answer *a, outcome *o)
         evaluation_answer(asked, "", &w, &answered, &p);
     if (expect == NULL || p.failed)
         o->failed = true;
+    else if (p.status >= 500)
+        o->unanswered = p.status;
     else if (e == NULL)
         strbuf_format(&o->fault, "there is no %s", one->path);
     else if (cJSON_HasObjectItem(expect, "status"))
@@ -224,6 +228,7 @@ static bool run_all(const request *r, answer *a, strbuf *cases, strbuf *families
         const bool good = !o.fault.size && o.compared.missed == 0 && o.compared.values > 0;
         write_case(&case_json, one, &o, good, r->values);
         const bool failed = o.failed;
+        const int unanswered = o.unanswered;
         for (tally *t = all;; t = &family) {
             t->cases++;
             t->passed += good;
@@ -234,6 +239,11 @@ static bool run_all(const request *r, answer *a, strbuf *cases, strbuf *families
         outcome_clear(&o);
         if (failed) {
             problem_out_of_memory(a->problem);
+            return false;
+        }
+        if (unanswered != 0) {
+            problem_set(a->problem, unanswered, "the case \"%s\" of %s found no answer",
+                        one->id, one->family);
             return false;
         }
         answer_progress(a, all->cases, NAN, "cases");

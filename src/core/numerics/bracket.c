@@ -37,3 +37,18 @@ double bracket_root(bracket_function *f, const void *data, double a, double b)
     }
     return fa == 0 ? a : b;
 }
+
+void bracket_take(bracket_ends *b, double x, double fx)
+{
+    if ((fx > 0) == (b->f_low > 0)) {
+        b->low = x;
+        b->f_low = fx;
+        b->f_high *= b->kept == 1 ? 0.5 : 1;
+        b->kept = 1;
+    } else {
+        b->high = x;
+        b->f_high = fx;
+        b->f_low *= b->kept == -1 ? 0.5 : 1;
+        b->kept = -1;
+    }
+}

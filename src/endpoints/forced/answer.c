@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "endpoints/forced/tension.h"
+#include "endpoints/forced/answer.h"
 
 /* Frequencies of a curve that `verify` recomputes, besides all profiles. */
 #define VERIFIED_MAX 8
@@ -23,19 +23,6 @@ static void solving_free(solving *s)
     strum_forced_free(s->forced);
 }
 
-/* The field that holds the highest frequency. */
-static const char *highest_field(const forced_request *r)
-{
-    double curve = 0, profiles = 0;
-    for (int i = 0; i < forced_frequency_count(r); i++)
-        curve = fmax(curve, forced_frequency_at(r, i));
-    for (size_t i = 0; i < r->profiles_at.count; i++)
-        profiles = fmax(profiles, r->profiles_at.items[i]);
-    return profiles > curve                ? "/profiles_at"
-           : r->frequency_ratios.count > 0 ? "/frequency_ratios"
-                                           : "/frequency_ratio_max";
-}
-
 static bool solving_make(solving *s, const forced_request *r, const answer *a)
 {
     problem *p = a->problem;
@@ -49,8 +36,8 @@ static bool solving_make(solving *s, const forced_request *r, const answer *a)
         status = strum_response_make(s->forced, &s->responses[i], &fault);
     if (status != STRUM_OK) {
         cable_refuse(&fault, status, p);
-        if (status == STRUM_ERR_RANGE || status == STRUM_ERR_ACCURACY)
-            problem_add(p, highest_field(r), "%s", fault.reason);
+        if (fault.argument == STRUM_FORCED_ARG_FREQUENCY)
+            problem_add(p, forced_highest_field(r), "%s", fault.reason);
     }
     return status == STRUM_OK;
 }
@@ -228,7 +215,7 @@ static void write_profile_points(json_writer *json, const solving *s, double pha
     json_close_array(json);
 }
 
-static strum_status write_profiles(json_writer *json, solving *s)
+static strum_status write_profiles(json_writer *json, solving *s, const answer *a)
 {
     const forced_request *r = s->r;
     strum_status status = STRUM_OK;
@@ -251,6 +238,8 @@ static strum_status write_profiles(json_writer *json, solving *s)
             write_profile_points(json, s, peak.phase);
         }
         json_close_object(json);
+        if (answer_cancelled(a))
+            status = STRUM_ERR_CANCELLED;
     }
     json_close_array(json);
     return status;
@@ -449,17 +438,45 @@ static strum_status write_verification(json_writer *json, solving *s,
     return STRUM_OK;
 }
 
+/* The natural frequencies that were met, with how strongly the first motion drives each; NULL
+ * without memory. */
+static strum_resonance *list_resonances(const solving *s, size_t *count)
+{
+    *count = strum_forced_count(s->forced);
+    strum_resonance *list = calloc(*count + 1, sizeof *list);
+    for (size_t i = 0; list != NULL && i < *count; i++)
+        if (strum_forced_get(s->forced, i, &s->r->motions[0], &list[i]) != STRUM_OK) {
+            free(list);
+            list = NULL;
+        }
+    return list;
+}
+
+static strum_status write_answer(json_writer *json, solving *s, answer *a, strum_error *fault)
+{
+    const forced_request *r = s->r;
+    size_t found;
+    strum_resonance *list = list_resonances(s, &found);
+    if (list == NULL)
+        return STRUM_ERR_MEMORY;
+    const int count = (int)found;
+    strum_status status = write_curve(json, s, a);
+    if (status == STRUM_OK)
+        status = write_resonances(json, r, list, count, a);
+    if (status == STRUM_OK && r->profiles_at.count > 0)
+        status = write_profiles(json, s, a);
+    if (status == STRUM_OK && r->verify)
+        status = write_verification(json, s, list, count, a, fault);
+    free(list);
+    return status;
+}
+
 bool forced_answer(const void *data, answer *a)
 {
     const forced_request *r = data;
     solving s;
     strum_error fault = {0};
     bool good = solving_make(&s, r, a);
-    strum_resonance *list = calloc(2 * STRUM_MODES_MAX, sizeof *list);
-    if (good && list == NULL) {
-        problem_out_of_memory(a->problem);
-        good = false;
-    }
     a->theory =
         "linear forced motion about the catenary (Gale 1976, 2.5), force Galerkin method";
     cable_warn(&r->in, a);
@@ -470,24 +487,12 @@ bool forced_answer(const void *data, answer *a)
     json_open_object(json);
     cable_write_geometry(json, &r->in);
     if (good) {
-        size_t found = 0;
-        strum_status status = strum_forced_resonances(s.forced, &r->motions[0], list,
-                                                      2 * STRUM_MODES_MAX, &found);
-        const int count = (int)found;
-        if (status == STRUM_OK)
-            status = write_curve(json, &s, a);
-        if (status == STRUM_OK)
-            status = write_resonances(json, r, list, count, a);
-        if (status == STRUM_OK && r->profiles_at.count > 0)
-            status = write_profiles(json, &s);
-        if (status == STRUM_OK && r->verify)
-            status = write_verification(json, &s, list, count, a, &fault);
+        const strum_status status = write_answer(json, &s, a, &fault);
         if (status != STRUM_OK)
             cable_refuse(&fault, status, a->problem);
         good = status == STRUM_OK;
     }
     json_close_object(json);
-    free(list);
     solving_free(&s);
     return good;
 }

@@ -499,6 +499,16 @@ static void endpoints_survive_failing_memory(void **state)
               "{\"tension_N\":100,\"components\":[" CABLE ",{\"type\":\"bar\",\"length_m\":1,"
               "\"mass_kg\":2}],\"angular_frequencies\":[3,{\"re\":1,\"im\":2}]}",
               NULL, 0, 0, 15);
+    e = endpoint_find("/v1/absorber/optimize");
+    assert_non_null(e);
+    fail_each(e,
+              "{\"tension_N\":100,\"components\":[" CABLE ",{\"type\":\"damper\","
+              "\"damping_N_s_per_m\":{\"variable\":\"c\"}}," CABLE "],\"variables\":[{"
+              "\"name\":\"c\",\"min\":1,\"max\":100}],\"modes\":[1],\"max_evaluations\":100}",
+              NULL, 0, 0, 20);
+    e = endpoint_find("/v1/validation");
+    assert_non_null(e);
+    fail_each(e, "{\"family\":\"levesque_table_4_1\",\"values\":true}", NULL, 0, 0, 20);
 }
 
 /* A large object's names are compared in memory of their own. */

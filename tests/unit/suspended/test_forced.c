@@ -180,9 +180,15 @@ static void resonances_are_natural_frequencies(void **state)
     assert_int_equal(strum_response_make(forced, &response, NULL), STRUM_OK);
     const strum_end_motion motion = {0.3, -0.2, 1};
     strum_resonance list[64], met;
-    size_t found;
-    assert_int_equal(strum_forced_resonances(forced, &motion, list, 64, &found), STRUM_OK);
-    const int count = (int)found;
+    const int count = (int)strum_forced_count(forced);
+    assert_in_range(count, 8, 64);
+    for (int i = 0; i < count; i++) {
+        assert_int_equal(strum_forced_get(forced, (size_t)i, &motion, &list[i]), STRUM_OK);
+        assert_true(i == 0 || list[i].frequency >= list[i - 1].frequency);
+        assert_int_equal(strum_forced_get(forced, (size_t)i, NULL, &met), STRUM_OK);
+        assert_true(met.frequency == list[i].frequency && met.residue == 0);
+    }
+    assert_int_equal(strum_forced_get(forced, (size_t)count, &motion, &met), STRUM_ERR_RANGE);
     for (int plane = 0; plane < 2; plane++) {
         strum_modes *spectrum;
         int modes = 0;
@@ -326,11 +332,13 @@ static void what_cannot_be_forced_is_refused(void **state)
     assert_int_equal(strum_forced_solve(&(strum_forced_params){cable, 1e4, true, false}, NULL,
                                         &forced, &fault),
                      STRUM_ERR_RANGE);
+    assert_int_equal(fault.argument, STRUM_FORCED_ARG_FREQUENCY);
     assert_null(forced);
     cable.mu = 0;
     assert_int_equal(strum_forced_solve(&(strum_forced_params){cable, 1, true, false}, NULL,
                                         &forced, &fault),
                      STRUM_ERR_RANGE);
+    assert_int_equal(fault.argument, STRUM_FORCED_ARG_CABLE);
     cable.mu = 1;
     assert_int_equal(strum_forced_solve(&(strum_forced_params){cable, 1, true, false}, NULL,
                                         &forced, &fault),
@@ -393,6 +401,10 @@ static void shooting_is_bounded(void **state)
     assert_int_equal(strum_forced_shoot(&cable, INFINITY, &motion, &at, 1, NULL, &fault),
                      STRUM_ERR_RANGE);
     assert_int_equal(fault.argument, STRUM_FORCED_ARG_FREQUENCY);
+    const strum_cable none = {.mu = NAN, .mass_t = 1, .mass_n = 1};
+    assert_int_equal(strum_forced_shoot(&none, 1, &motion, &at, 1, NULL, &fault),
+                     STRUM_ERR_RANGE);
+    assert_int_equal(fault.argument, STRUM_FORCED_ARG_CABLE);
     const strum_options few = {.work_max = 1000};
     assert_int_equal(strum_forced_shoot(&cable, 1e6, &motion, &at, 1, &few, &fault),
                      STRUM_ERR_WORK);
@@ -409,11 +421,13 @@ static bool stopped(void *context)
 }
 
 /* Cancelled at each place in turn where it asks: no answer, nothing left behind. */
-static void a_solve_can_be_stopped(void **state)
+static void stop_each(bool in_plane, bool out_of_plane)
 {
-    (void)state;
     const strum_forced_params params = {
-        {.chi_m = 1, .mu = 2, .mass_t = 1, .mass_n = 1, .eta_n = 0.3}, 20, true, true};
+        {.chi_m = 1, .mu = 2, .mass_t = 1, .mass_n = 1, .eta_n = 0.3},
+        20,
+        in_plane,
+        out_of_plane};
     strum_error fault;
     stop s = {.after = 0};
     const strum_options options = {stopped, &s, 0};
@@ -432,6 +446,15 @@ static void a_solve_can_be_stopped(void **state)
     strum_forced *forced;
     const strum_options little = {.work_max = 1};
     assert_int_equal(strum_forced_solve(&params, &little, &forced, &fault), STRUM_ERR_WORK);
+    assert_null(forced);
+}
+
+static void a_solve_can_be_stopped(void **state)
+{
+    (void)state;
+    stop_each(true, false);
+    stop_each(false, true);
+    stop_each(true, true);
 }
 
 int main(void)

@@ -1,13 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Forced motion in the complementary form. With a = m s^2 + eta s, the weak equation is
- *     INT G' . (tt'/a_t + nn'/a_n) F' dsigma + INT G . C F dsigma = G(end 2) . d   for all G,
- * in the unknowns of in_plane.h: (A + K(s)) f = r, r = b + constants' d, and c = from_unknowns f
- * + from_motion d. Without damping, and with damping proportional to mass, K(s) = -K/Omega with
- * Omega = -(s^2 + rate s), so that the free modes A phi = mu K phi, phi'K phi = 1, give f =
- * Omega h,   h = sum phi (phi.r)/(Omega mu - 1),   X = -(tt'/m_t + nn'/m_n) dh/dsigma, which is
- * the exact static answer at Omega = 0. Other damping solves the complex system at each
- * frequency.
+ *     INT G' . (tt'/a_t + nn'/a_n) F' dsigma + INT G . C F dsigma = G(end 2) . d   for all G.
+ * In the unknowns of in_plane.h it is
+ *     (A + K(s)) f = r,
+ *     r = b + constants' d,
+ *     c = from_unknowns f + from_motion d.
+ * Without damping, and with damping proportional to mass,
+ *     K(s) = -K/Omega,
+ *     Omega = -(s^2 + rate s),
+ * so that the free modes A phi = mu K phi, phi'K phi = 1, give
+ *     f = Omega h,
+ *     h = sum phi (phi.r)/(Omega mu - 1),
+ *     X = -(tt'/m_t + nn'/m_n) dh/dsigma,
+ * which is the exact static answer at Omega = 0. Other damping solves the complex system at
+ * each frequency.
  */
 #include "core/suspended/forced/modal.h"
 
@@ -144,8 +151,11 @@ static strum_status make_at_size(strum_forced *f, int size, work *w)
                                     : STRUM_ANTISYMMETRIC,
                            size, &f->memory, &f->parts[i]);
     }
-    if (status == STRUM_OK && f->out_of_plane)
-        status = forced_out_of_plane_make(f);
+    if (status == STRUM_OK && f->out_of_plane) {
+        status = work_spend(w, part_us(size));
+        if (status == STRUM_OK)
+            status = forced_out_of_plane_make(f);
+    }
     return status == STRUM_OK ? make_samples(f) : status;
 }
 
@@ -204,7 +214,9 @@ static strum_status grow(strum_forced *f, mapping along, int modes, work *w,
         if (status != STRUM_OK)
             return error_set(error_out, status, "%s", strum_status_text(status));
         if (error < TAIL_MAX)
-            return STRUM_OK;
+            return forced_naturals_make(f) == STRUM_OK
+                       ? STRUM_OK
+                       : error_set(error_out, STRUM_ERR_MEMORY, "out of memory");
         arena_free(&f->memory);
         /* rounding, not size, stands in the way once a larger size helps no more */
         if (error < 1e-8 && error > before / 2)
@@ -212,13 +224,14 @@ static strum_status grow(strum_forced *f, mapping along, int modes, work *w,
         before = error;
     }
     if (isinf(error))
-        return error_set(error_out, STRUM_ERR_ACCURACY,
-                         "the response needs about %.0f unknowns a component; %d can be solved",
-                         size, SPECTRUM_SIZE_MAX_QUADRATIC);
-    return error_set(error_out, STRUM_ERR_ACCURACY,
-                     "the last terms of the response are still %.1e of the first (%.0e is "
-                     "promised) at up to %d unknowns a component",
-                     error, TAIL_MAX, SPECTRUM_SIZE_MAX_QUADRATIC);
+        return error_at(error_out, STRUM_ERR_ACCURACY, STRUM_FORCED_ARG_FREQUENCY,
+                        STRUM_NO_INDEX,
+                        "the response needs about %.0f unknowns a component; %d can be solved",
+                        size, SPECTRUM_SIZE_MAX_QUADRATIC);
+    return error_at(error_out, STRUM_ERR_ACCURACY, STRUM_FORCED_ARG_FREQUENCY, STRUM_NO_INDEX,
+                    "the last terms of the response are still %.1e of the first (%.0e is "
+                    "promised) at up to %d unknowns a component",
+                    error, TAIL_MAX, SPECTRUM_SIZE_MAX_QUADRATIC);
 }
 
 static strum_status make(strum_forced *f, work *w, strum_error *fault)
@@ -229,9 +242,9 @@ static strum_status make(strum_forced *f, work *w, strum_error *fault)
             count = fmax(count, 2 + spectrum_phase_count(&f->cable, (strum_plane)plane,
                                                          f->frequency_max));
     if (!(count < STRUM_MODES_MAX))
-        return error_set(fault, STRUM_ERR_RANGE,
-                         "about %.6g modes lie below the highest frequency; %d can be answered",
-                         ceil(count), STRUM_MODES_MAX);
+        return error_at(fault, STRUM_ERR_RANGE, STRUM_FORCED_ARG_FREQUENCY, STRUM_NO_INDEX,
+                        "about %.6g modes lie below the highest frequency; %d can be answered",
+                        ceil(count), STRUM_MODES_MAX);
     const strum_plane plane = f->in_plane ? STRUM_IN_PLANE : STRUM_OUT_OF_PLANE;
     const int modes = (int)ceil(count);
     const strum_status status = grow(f, mapping_linear(&f->cable), modes, w, fault);
@@ -245,8 +258,11 @@ strum_status strum_forced_solve(const strum_forced_params *params, const strum_o
 {
     *forced = NULL;
     strum_status status = spectrum_check_cable(&params->cable, error);
-    if (status != STRUM_OK)
+    if (status != STRUM_OK) {
+        if (error != NULL)
+            error->argument = STRUM_FORCED_ARG_CABLE;
         return status;
+    }
     if (!(isfinite(params->frequency_max) && params->frequency_max >= 0))
         return error_at(error, STRUM_ERR_RANGE, STRUM_FORCED_ARG_FREQUENCY, STRUM_NO_INDEX,
                         "the frequency must not be negative");
@@ -266,14 +282,6 @@ strum_status strum_forced_solve(const strum_forced_params *params, const strum_o
     else
         strum_forced_free(f);
     return status;
-}
-
-void strum_forced_free(strum_forced *f)
-{
-    if (f == NULL || atomic_fetch_sub(&f->references, 1) > 1)
-        return;
-    arena_free(&f->memory);
-    free(f);
 }
 
 /* Puts one real part of a part's unknowns where the response keeps them, and their constants
@@ -388,70 +396,4 @@ strum_status strum_response_solve(strum_response *response, double frequency,
     return f->out_of_plane
                ? forced_out_of_plane_solve(f, frequency, motion->out_of_plane, response, at)
                : STRUM_OK;
-}
-
-static int by_frequency(const void *left, const void *right)
-{
-    const strum_resonance *l = left, *r = right;
-    return l->frequency < r->frequency ? -1 : l->frequency > r->frequency;
-}
-
-static void number(strum_resonance *list, int count, bool level)
-{
-    qsort(list, (size_t)count, sizeof *list, by_frequency);
-    for (int plane = 0; plane < 2; plane++) {
-        int mode = 0;
-        for (int i = 0; i < count; i++)
-            if (list[i].plane == (strum_plane)plane) {
-                list[i].mode = ++mode;
-                if (plane == STRUM_OUT_OF_PLANE && level) /* a string's modes alternate */
-                    list[i].symmetry = mode % 2 == 1 ? STRUM_SYMMETRIC : STRUM_ANTISYMMETRIC;
-            }
-    }
-}
-
-/* Near mode j: h -> phi (phi.r)/(2 delta), so T -> T_phi omega_j^2 (phi.r)/(2 delta). */
-static double residue(const forced_part *p, int j, const double _Complex d[2],
-                      strum_response *response)
-{
-    const double _Complex share = d[0] * p->share[0][j] + d[1] * p->share[1][j];
-    strum_peak peak;
-    response_of_mode(response, p, j);
-    strum_response_peak(response, &peak);
-    return peak.tension * cabs(share) / (2 * p->mu[j]);
-}
-
-strum_status strum_forced_resonances(const strum_forced *f, const strum_end_motion *motion,
-                                     strum_resonance *list, size_t room, size_t *count)
-{
-    size_t n = 0;
-    strum_response *response;
-    *count = 0;
-    const strum_status status = strum_response_make(f, &response, NULL);
-    if (status != STRUM_OK)
-        return status;
-    double _Complex d[2];
-    for (int k = 0; k < 2; k++)
-        d[k] = motion->tangential * f->end[0][k] + motion->normal * f->end[1][k];
-    for (int i = 0; i < f->part_count; i++) {
-        const forced_part *p = &f->parts[i];
-        for (int j = 0; j < p->part.count && n < room; j++) {
-            if (!(p->mu[j] > 0 && 1 / sqrt(p->mu[j]) <= f->frequency_max))
-                break;
-            note_resonance(p, j, &list[n]);
-            list[n++].residue = residue(p, j, d, response);
-        }
-    }
-    for (int j = 0; f->out_of_plane && j < f->size - 1 && n < room; j++) {
-        list[n] = (strum_resonance){.plane = STRUM_OUT_OF_PLANE,
-                                    .frequency = forced_out_of_plane_frequency(f, j)};
-        if (!(list[n].frequency <= f->frequency_max))
-            break;
-        list[n++].residue =
-            forced_out_of_plane_residue(f, j, motion->out_of_plane, response->table);
-    }
-    strum_response_free(response);
-    number(list, (int)n, f->cable.chi_m == 0);
-    *count = n;
-    return STRUM_OK;
 }

@@ -21,6 +21,15 @@ typedef struct forced_part {
     double *rest[2]; /* sum of phi (phi.r) over the other pairs, which all answer alike */
 } forced_part;
 
+/* A natural frequency up to the highest one. */
+typedef struct forced_natural {
+    const forced_part *part; /* NULL: out of plane */
+    int pair;                /* of the part, or number out of plane, from 0 */
+    int mode;                /* within its plane, from 1 */
+    double frequency;
+    strum_symmetry symmetry;
+} forced_natural;
+
 struct strum_forced {
     atomic_uint references; /* the caller's, and one of each response */
     strum_cable cable;
@@ -36,7 +45,9 @@ struct strum_forced {
     double *factors;                   /* of the legendre */
     int samples;                       /* equally spaced in x, for the peak */
     double *sample_q, *sample_t; /* q_k(x_i) at [i + k samples]; t: two components a sample */
-    arena memory;                /* owns all the above */
+    forced_natural *naturals;    /* ascending */
+    size_t natural_count;
+    arena memory; /* owns all the above */
 };
 
 /* F = c + scale sum v_k q_k, X = (tt' inverse_t + nn' inverse_n) sum v_k p_k / (mu cosh chi).
@@ -65,7 +76,10 @@ void response_tension(const strum_response *response, double x, double _Complex 
 /* The response of a free mode of a part: for residues. */
 void response_of_mode(strum_response *response, const forced_part *part, int mode);
 
-/* Out of plane: forced_out.c. */
+/* The list of natural frequencies, once the rest of `forced` is made. */
+strum_status forced_naturals_make(strum_forced *forced);
+
+/* Out of plane: out_of_plane.c. */
 strum_status forced_out_of_plane_make(strum_forced *forced);
 strum_status forced_out_of_plane_solve(const strum_forced *forced, double frequency,
                                        double _Complex lift, strum_response *response,

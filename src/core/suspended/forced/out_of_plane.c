@@ -1,8 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Out of plane V_chi = -R cosh W, W_chi = e V with e = 1 + kappa_n cosh and R = m_n w^2 - i
- * eta_n w (out_of_plane.c). W = lift ((1 + x)/2 + sum w_k q_k), k >= 1: (K - R M) w = R g - l
- * with K = INT p p/(e chi_x), M = INT q q cosh chi_x, and g and l the same of the lifting.
+ * Forced motion out of plane (the equations of out_of_plane.c):
+ *     V_chi = -R cosh(chi) W,
+ *     W_chi = e V,
+ *     e = 1 + kappa_n cosh(chi),
+ *     R = m_n w^2 - i eta_n w.
+ * With
+ *     W = lift ((1 + x)/2 + sum w_k q_k),   k >= 1,
+ * the coefficients are those of
+ *     (K - R M) w = R g - l,
+ *     K = INT p p/(e chi_x),
+ *     M = INT q q cosh(chi) chi_x,
+ * where g and l are the same integrals of the lifting.
  */
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The largest tension of a sum of harmonics, over cable and period: |S(x, phase)|, S = Re sum
- * T_k e^{i k_m phase}, on a grid of x and phase; every grid point above its neighbours that may
- * hide the largest is refined.
+ * The largest tension of a sum of harmonics over cable and period: the largest |S| of
+ *     S(x, phase) = Re sum T_k(x) e^{i k_m phase}
+ * on a grid of x and phase; every grid point above its neighbours that may hide the largest is
+ * refined.
  */
 #include <cblas.h>
 #include <math.h>

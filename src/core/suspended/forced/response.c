@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A forced response: its values along the cable and its largest tension. */
+/* A forced response: its life with the system it belongs to, its values along the cable and its largest tension. */
 #include <cblas.h>
 #include <math.h>
 #include <stdint.h>
@@ -7,7 +7,17 @@
 #include <string.h>
 
 #include "core/suspended/forced/modal.h"
+#include "core/numerics/bracket.h"
 #include "core/numerics/peak.h"
+
+/* The last of the caller and the responses that lets go frees the system. */
+void strum_forced_free(strum_forced *f)
+{
+    if (f == NULL || atomic_fetch_sub(&f->references, 1) > 1)
+        return;
+    arena_free(&f->memory);
+    free(f);
+}
 
 strum_status strum_response_make(const strum_forced *f, strum_response **response,
                                  strum_error *error)
@@ -159,41 +169,30 @@ static double climb(const strum_response *r, double x, double _Complex *tension)
 
 /* The maximum between two samples about one that is larger than both: false position on the
  * slope. */
-static double refine(const strum_response *r, double low, double high, double _Complex *tension)
+static double refine(const strum_response *r, double low, double high)
 {
     double _Complex ignored;
-    double g_low = climb(r, low, &ignored), g_high = climb(r, high, &ignored), x = low;
-    if (!(g_low > 0)) /* falls from its end, which is a support */
-        x = low;
-    else if (!(g_high < 0))
-        x = high;
-    else
-        for (int i = 0, kept = 0; i < 40 && high - low > 1e-9; i++) {
-            x = (low * g_high - high * g_low) / (g_high - g_low);
-            const double g = climb(r, x, &ignored);
-            if (fabs(g) < 1e-13 * fmax(fabs(g_low), fabs(g_high)))
-                break;
-            if (g > 0) {
-                low = x;
-                g_low = g;
-                g_high *= kept == 1 ? 0.5 : 1; /* Illinois: an end that stays counts half */
-                kept = 1;
-            } else {
-                high = x;
-                g_high = g;
-                g_low *= kept == -1 ? 0.5 : 1;
-                kept = -1;
-            }
-        }
-    double _Complex slope;
-    response_tension(r, x, tension, &slope);
+    bracket_ends b = {low, high, climb(r, low, &ignored), climb(r, high, &ignored), 0};
+    if (!(b.f_low > 0)) /* falls from its end, which is a support */
+        return low;
+    if (!(b.f_high < 0))
+        return high;
+    double x = low;
+    for (int i = 0; i < 40 && b.high - b.low > 1e-9; i++) {
+        x = (b.low * b.f_high - b.high * b.f_low) / (b.f_high - b.f_low);
+        const double g = climb(r, x, &ignored);
+        if (fabs(g) < 1e-13 * fmax(fabs(b.f_low), fabs(b.f_high)))
+            break;
+        bracket_take(&b, x, g);
+    }
     return x;
 }
 
 static double refine_peak(void *data, double low, double high, double *x)
 {
-    double _Complex tension;
-    *x = refine(data, low, high, &tension);
+    double _Complex tension, slope;
+    *x = refine(data, low, high);
+    response_tension(data, *x, &tension, &slope);
     return cabs(tension);
 }
 

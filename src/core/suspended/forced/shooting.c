@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The second method of forced motion: the first-order system of catenary.h,
- *     X_chi = cosh chi C F,   F_chi = cosh chi [tt' a_t + nn' a_n] X,   a = m s^2 + eta s,
- * from X = 0 at end 1 for two starting forces, and out of plane W_chi = V, V_chi = a_n cosh chi
- * W. The combination that meets the motion of end 2 is the answer.
+ *     X_chi = cosh(chi) C F,
+ *     F_chi = cosh(chi) [tt' a_t + nn' a_n] X,
+ *     a = m s^2 + eta s,
+ * from X = 0 at end 1 for two starting forces, and out of plane
+ *     W_chi = (1 + kappa_n cosh(chi)) V,
+ *     V_chi = a_n cosh(chi) W.
+ * The combination that meets the motion of end 2 is the answer.
  */
 #include <complex.h>
 #include <math.h>
@@ -13,6 +17,7 @@
 #include "core/numerics/arena.h"
 #include "core/numerics/extrapolation.h"
 #include "core/suspended/forced/modal.h"
+#include "core/suspended/modes.h"
 
 /* X, F for two starting forces, then W and V: ten complex numbers. */
 #define STATE 20
@@ -90,6 +95,12 @@ strum_status strum_forced_shoot(const strum_cable *cable, double frequency,
                                 const strum_end_motion *motion, strum_forced_point *points,
                                 size_t count, const strum_options *options, strum_error *error)
 {
+    const strum_status checked = spectrum_check_cable(cable, error);
+    if (checked != STRUM_OK) {
+        if (error != NULL)
+            error->argument = STRUM_FORCED_ARG_CABLE;
+        return checked;
+    }
     if (!(isfinite(frequency) && frequency >= 0))
         return error_at(error, STRUM_ERR_RANGE, STRUM_FORCED_ARG_FREQUENCY, STRUM_NO_INDEX,
                         "the frequency must not be negative");

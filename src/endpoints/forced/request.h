@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What asking for a forced motion (forced_tension.c) and writing its answer down
- * (forced_answer.c) share. */
-#ifndef ENDPOINTS_FORCED_TENSION_H
-#define ENDPOINTS_FORCED_TENSION_H
+/* What is asked of a forced motion. */
+#ifndef ENDPOINTS_FORCED_REQUEST_H
+#define ENDPOINTS_FORCED_REQUEST_H
 
 #include <strum/forced.h>
 
@@ -32,7 +31,12 @@ bool forced_given(const forced_request *r, const char *name);
 int forced_frequency_count(const forced_request *r);
 double forced_frequency_at(const forced_request *r, int i);
 
-/* The result; false with a->problem set. */
-bool forced_answer(const void *request, answer *a);
+/* The field that holds the highest frequency. */
+const char *forced_highest_field(const forced_request *r);
+
+/* Of the endpoint. */
+extern const schema forced_request_schema;
+void forced_prepare(void *request, schema_arena *arena, problem *p);
+double forced_cost_us(const void *request);
 
 #endif

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The request of /v1/forced/tension. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "endpoints/forced/request.h"
+
+#define FREQUENCIES_MAX 10000
+
+typedef struct harmonic {
+    field_set given;
+    int64_t multiple;
+    double tangential, normal, out_of_plane, phase_deg;
+} harmonic;
+
+static const field harmonic_fields[] = {
+    {FIELD_AT(FIELD_INTEGER, harmonic, multiple), .min = 1, .max = 100, .flags = FIELD_REQUIRED,
+     .help = "multiple of the forcing frequency"},
+    {FIELD_AT(FIELD_NUMBER, harmonic, tangential), .unit = "1", .min = -1e3, .max = 1e3,
+     .flags = FIELD_DEFAULT, .help = "amplitude along the tangent at end 2, in a"},
+    {FIELD_AT(FIELD_NUMBER, harmonic, normal), .unit = "1", .min = -1e3, .max = 1e3,
+     .flags = FIELD_DEFAULT, .help = "amplitude normal to the cable at end 2, in plane, in a"},
+    {FIELD_AT(FIELD_NUMBER, harmonic, out_of_plane), .unit = "1", .min = -1e3, .max = 1e3,
+     .flags = FIELD_DEFAULT, .help = "amplitude out of plane, in a"},
+    {FIELD_AT(FIELD_NUMBER, harmonic, phase_deg), .unit = "deg", .min = -360, .max = 360,
+     .flags = FIELD_DEFAULT,
+     .help = "phase: the motion is amplitude cos(multiple omega t + phase)"},
+    {.kind = FIELD_END}};
+static const schema harmonic_schema = {
+    .name = "harmonic", .fields = harmonic_fields, .size = sizeof(harmonic)};
+
+#define AMPLITUDE(member, unit_, help_)                                                        \
+    {                                                                                          \
+        FIELD_AT(FIELD_NUMBER, forced_request, member), .unit = (unit_), .min = -1e6,          \
+                                                        .max = 1e6, .help = (help_)            \
+    }
+#define RATIO_MAX 1e5
+
+static const field fields[] = {
+    CABLE_FIELDS,
+    AMPLITUDE(tangential_displacement, "1",
+              "amplitude of end 2 along the tangent there, in a; 0.01 when no motion is given"),
+    AMPLITUDE(normal_displacement, "1",
+              "amplitude of end 2 normal to the cable, in plane, in a"),
+    AMPLITUDE(out_of_plane_displacement, "1", "amplitude of end 2 out of plane, in a"),
+    AMPLITUDE(tangential_displacement_m, "m", "amplitude of end 2 along the tangent there"),
+    AMPLITUDE(normal_displacement_m, "m", "amplitude of end 2 normal to the cable, in plane"),
+    AMPLITUDE(out_of_plane_displacement_m, "m", "amplitude of end 2 out of plane"),
+    {FIELD_AT(FIELD_OBJECTS, forced_request, harmonics), .schema = &harmonic_schema,
+     .min_items = 1, .max_items = FORCED_HARMONICS_MAX,
+     .help = "any periodic motion of end 2, as a sum of harmonics"},
+    {FIELD_AT(FIELD_NUMBERS, forced_request, frequency_ratios), .unit = "1", .min = 0,
+     .max = RATIO_MAX, .min_items = 1, .max_items = FREQUENCIES_MAX,
+     .help = "forcing frequencies in sqrt(g/a); 0 is the static answer"},
+    {FIELD_AT(FIELD_NUMBER, forced_request, frequency_ratio_min), .unit = "1", .min = 0,
+     .max = RATIO_MAX, .help = "first forcing frequency of the curve, in sqrt(g/a)"},
+    {FIELD_AT(FIELD_NUMBER, forced_request, frequency_ratio_max), .unit = "1", .min = 0,
+     .max = RATIO_MAX, .flags = FIELD_OPEN_MIN, .help = "last forcing frequency of the curve"},
+    {FIELD_AT(FIELD_INTEGER, forced_request, points), .min = 2, .max = FREQUENCIES_MAX,
+     .flags = FIELD_DEFAULT, .fallback = 201,
+     .help = "equally spaced frequencies of the curve, ends included"},
+    {FIELD_AT(FIELD_NUMBERS, forced_request, profiles_at), .unit = "1", .min = 0,
+     .max = RATIO_MAX, .max_items = 100,
+     .help = "forcing frequencies whose motion and tension along the cable are wanted"},
+    {FIELD_AT(FIELD_INTEGER, forced_request, profile_points), .min = 2, .max = 2000,
+     .flags = FIELD_DEFAULT, .fallback = 33,
+     .help = "points of each profile, equally spaced in chi, ends included"},
+    {FIELD_AT(FIELD_NUMBERS, forced_request, profile_chi), .unit = "1", .min = -STRUM_CHI_MAX,
+     .max = STRUM_CHI_MAX, .min_items = 1, .max_items = 2000,
+     .help = "places of the profiles' points instead, between chi_1 and chi_2"},
+    {FIELD_AT(FIELD_FLAG, forced_request, verify), .flags = FIELD_DEFAULT,
+     .help = "check the answer by a second, independent method"},
+    {.kind = FIELD_END}};
+
+static const char *const motion_groups[] = {
+    "[tangential_displacement] [normal_displacement] [out_of_plane_displacement]",
+    "[tangential_displacement_m] [normal_displacement_m] [out_of_plane_displacement_m] +span_m",
+    "harmonics", NULL};
+static const char *const frequency_groups[] = {
+    "frequency_ratios", "frequency_ratio_min frequency_ratio_max [points]", NULL};
+static const char *const profile_groups[] = {"[profile_points]", "profile_chi", NULL};
+static const field_groups groups[] = {{CABLE_GEOMETRY_GROUPS},
+                                      {CABLE_ELASTICITY_GROUPS},
+                                      {"motion", true, motion_groups},
+                                      {"forcing frequency", false, frequency_groups},
+                                      {"profile places", true, profile_groups},
+                                      {0}};
+
+const schema forced_request_schema = {.name = "forced_tension_request",
+                                      .fields = fields,
+                                      .groups = groups,
+                                      .size = sizeof(forced_request)};
+
+bool forced_given(const forced_request *r, const char *name)
+{
+    return field_given(&forced_request_schema, r, name);
+}
+
+/* Amplitudes that were left out are 0; with none at all the report's tangential 0.01 moves the
+ * end. */
+static void complete_motion(forced_request *r)
+{
+    static const char *const names[] = {"tangential_displacement", "normal_displacement",
+                                        "out_of_plane_displacement"};
+    const bool metres = forced_given(r, "tangential_displacement_m") ||
+                        forced_given(r, "normal_displacement_m") ||
+                        forced_given(r, "out_of_plane_displacement_m");
+    if (forced_given(r, "harmonics")) {
+        const harmonic *h = r->harmonics.items;
+        for (size_t i = 0; i < r->harmonics.count; i++, h++) {
+            const double _Complex turn = cexp(CMPLX(0, h->phase_deg * M_PI / 180));
+            r->motions[i] = (strum_end_motion){h->tangential * turn, h->normal * turn,
+                                               h->out_of_plane * turn};
+            r->multiples[i] = (int)h->multiple;
+        }
+        r->motion_count = (int)r->harmonics.count;
+        return;
+    }
+    r->motion_count = r->multiples[0] = 1;
+    if (metres) {
+        r->motions[0] = (strum_end_motion){r->tangential_displacement_m / r->in.a_m,
+                                           r->normal_displacement_m / r->in.a_m,
+                                           r->out_of_plane_displacement_m / r->in.a_m};
+        return;
+    }
+    if (!forced_given(r, names[0]) && !forced_given(r, names[1]) && !forced_given(r, names[2]))
+        r->tangential_displacement = 0.01;
+    for (int i = 0; i < 3; i++)
+        field_give(&forced_request_schema, r, names[i]);
+    r->motions[0] = (strum_end_motion){r->tangential_displacement, r->normal_displacement,
+                                       r->out_of_plane_displacement};
+}
+
+double forced_frequency_at(const forced_request *r, int i)
+{
+    if (r->frequency_ratios.count > 0)
+        return r->frequency_ratios.items[i];
+    const double share = (double)i / (double)(r->points - 1);
+    return r->frequency_ratio_min * (1 - share) + r->frequency_ratio_max * share;
+}
+
+int forced_frequency_count(const forced_request *r)
+{
+    return (int)(r->frequency_ratios.count > 0 ? (int64_t)r->frequency_ratios.count
+                                               : r->points);
+}
+
+const char *forced_highest_field(const forced_request *r)
+{
+    double curve = 0, profiles = 0;
+    for (int i = 0; i < forced_frequency_count(r); i++)
+        curve = fmax(curve, forced_frequency_at(r, i));
+    for (size_t i = 0; i < r->profiles_at.count; i++)
+        profiles = fmax(profiles, r->profiles_at.items[i]);
+    return profiles > curve                ? "/profiles_at"
+           : r->frequency_ratios.count > 0 ? "/frequency_ratios"
+                                           : "/frequency_ratio_max";
+}
+
+void forced_prepare(void *data, schema_arena *arena, problem *p)
+{
+    (void)arena;
+    forced_request *r = data;
+    cable_prepare(&forced_request_schema, &r->in, p);
+    if (r->frequency_ratios.count == 0 && !(r->frequency_ratio_min < r->frequency_ratio_max))
+        problem_add(p, "/frequency_ratio_max", "must be greater than frequency_ratio_min");
+    for (size_t i = 0; p->status == 0 && i < r->profile_chi.count; i++)
+        if (fabs(r->profile_chi.items[i] - r->in.catenary.chi_m) >
+            r->in.catenary.mu * (1 + 1e-12)) {
+            char pointer[40];
+            (void)snprintf(pointer, sizeof pointer, "/profile_chi/%zu", i);
+            problem_add(p, pointer, "lies beyond the ends, chi_1 = %.17g and chi_2 = %.17g",
+                        r->in.catenary.chi_m - r->in.catenary.mu,
+                        r->in.catenary.chi_m + r->in.catenary.mu);
+        }
+    if (p->status != 0)
+        return;
+    complete_motion(r);
+    int multiple = 1;
+    for (int i = 0; i < r->motion_count; i++) {
+        r->in_plane |= r->motions[i].tangential != 0 || r->motions[i].normal != 0;
+        r->out_of_plane |= r->motions[i].out_of_plane != 0;
+        multiple = r->multiples[i] > multiple ? r->multiples[i] : multiple;
+    }
+    r->in_plane |= !r->out_of_plane;
+    for (int i = 0; i < forced_frequency_count(r); i++)
+        r->highest = fmax(r->highest, forced_frequency_at(r, i));
+    for (size_t i = 0; i < r->profiles_at.count; i++)
+        r->highest = fmax(r->highest, r->profiles_at.items[i]);
+    r->highest *= multiple;
+}
+
+double forced_cost_us(const void *data)
+{
+    const forced_request *r = data;
+    const double count = forced_frequency_count(r) + (double)r->profiles_at.count;
+    const bool direct = cable_damped(&r->in) && r->in.eta_tangential != r->in.eta_normal;
+    return 1000 + count * (direct ? 500 : 30) * r->motion_count;
+}
