@@ -7,7 +7,7 @@
 #ifndef HTTP_API_BATCH_H
 #define HTTP_API_BATCH_H
 
-#include "http/transport/connections.h"
+#include "http/api/request.h"
 
 enum MHD_Result batch_answer(struct connection *p);
 

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 
 #include "http/api/reply.h"
-#include "http/transport/server.h"
 
 typedef struct events {
     stream stream;
@@ -134,20 +133,20 @@ waiter *events_open(connection *p)
     stream_init(&e->stream, p);
     stream_ref(&e->stream); /* the waiter's */
     pthread_mutex_init(&e->lock, NULL);
-    e->cache = p->server->cache;
-    e->waiter = (waiter){.raw = p->request.waiter.raw, .on_done = wake, .on_progress = hear};
-    p->request.stream = &e->stream;
+    e->cache = p->service->cache;
+    e->waiter = (waiter){.raw = p->request->waiter.raw, .on_done = wake, .on_progress = hear};
+    p->request->stream = &e->stream;
     return &e->waiter;
 }
 
 void events_free_waiter(connection *p)
 {
-    stream_unref(p->request.stream);
+    stream_unref(p->request->stream);
 }
 
 enum MHD_Result events_reply(connection *p, entry *known)
 {
-    events *e = (events *)(void *)p->request.stream;
+    events *e = (events *)(void *)p->request->stream;
     pthread_mutex_lock(&e->lock);
     if (known) {
         e->outcome = known;
@@ -159,5 +158,5 @@ enum MHD_Result events_reply(connection *p, entry *known)
     pthread_mutex_unlock(&e->lock);
     if (refused)
         return reply_entry(p, refusal, REPLY_SOLVED);
-    return reply_stream(p, p->request.stream, "text/event-stream");
+    return reply_stream(p, p->request->stream, "text/event-stream");
 }

@@ -6,7 +6,7 @@
 #ifndef HTTP_API_EVENTS_H
 #define HTTP_API_EVENTS_H
 
-#include "http/transport/connections.h"
+#include "http/api/request.h"
 
 /* Makes p->request.stream; NULL when memory ran out. Its waiter is to be given to cache_acquire;
  * events_free_waiter says that it was not taken. */

@@ -4,7 +4,7 @@
 #ifndef HTTP_API_REPLY_H
 #define HTTP_API_REPLY_H
 
-#include "http/transport/connections.h"
+#include "http/api/request.h"
 
 struct asset;
 
@@ -26,7 +26,7 @@ enum MHD_Result reply_asset(struct connection *p, const struct asset *a);
 enum MHD_Result reply_options(struct connection *p, unsigned methods);
 
 /* Makes an answer's prebuilt: responses that are sent as they are for every plain hit. */
-void reply_prebuild(struct server *s, entry *e);
+void reply_prebuild(service *s, entry *e);
 
 /* What is sent when nothing else can be made: 503, out of memory. */
 struct MHD_Response *reply_no_memory(void);

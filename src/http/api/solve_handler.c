@@ -4,15 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "http/transport/clock.h"
+#include "http/service/clock.h"
 #include "http/api/events.h"
 #include "http/api/reply.h"
-#include "http/transport/server.h"
 
 /* A flight that a worker shall solve, or only look for in the shared store. */
 typedef struct task {
     job job;
-    server *server;
+    service *service;
     evaluation *asking; /* owned; NULL: only look */
     cache_key key;
     flight *flight;
@@ -59,12 +58,12 @@ static void tell(observer *w, const progress *so_far)
 }
 
 /* What takes longer than this goes to a worker, and may be in the shared store. */
-static bool is_costly(const server *s, const evaluation *a)
+static bool is_costly(const service *s, const evaluation *a)
 {
     return evaluation_cost_us(a) >= s->settings->inline_us;
 }
 
-static entry *find_stored(server *s, const cache_key *key)
+static entry *find_stored(service *s, const cache_key *key)
 {
     const double began = clock_us();
     entry *e = store_find(s->store, key);
@@ -73,7 +72,7 @@ static entry *find_stored(server *s, const cache_key *key)
     return e;
 }
 
-void solve_flight(server *s, const evaluation *a, const cache_key *key, flight *f,
+void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
                   double given_us)
 {
     const double queue_us = given_us > 0 ? clock_us() - given_us : 0;
@@ -98,7 +97,7 @@ void solve_flight(server *s, const evaluation *a, const cache_key *key, flight *
 }
 
 /* As solve_flight, for who asks by the key alone. */
-static void look(server *s, const cache_key *key, flight *f)
+static void look(service *s, const cache_key *key, flight *f)
 {
     entry *e = find_stored(s, key);
     if (e) {
@@ -117,9 +116,9 @@ static void task_work(job *j)
 {
     task *t = (task *)(void *)j;
     if (t->asking)
-        solve_flight(t->server, t->asking, &t->key, t->flight, t->given_us);
+        solve_flight(t->service, t->asking, &t->key, t->flight, t->given_us);
     else
-        look(t->server, &t->key, t->flight);
+        look(t->service, &t->key, t->flight);
     evaluation_free(t->asking);
     free(t);
 }
@@ -130,38 +129,36 @@ enum { HANDOVER_NONE, HANDOVER_SUSPENDED, HANDOVER_DONE };
 
 static connection *connection_of(waiter *w)
 {
-    return (connection *)(void *)((char *)w - offsetof(connection, request.waiter));
+    return ((request *)(void *)((char *)w - offsetof(request, waiter)))->connection;
 }
 
 static void wake(waiter *w, entry *outcome)
 {
     connection *p = connection_of(w);
-    p->request.outcome = outcome;
+    p->request->outcome = outcome;
     /* Whoever comes second to the handover resumes. */
-    if (atomic_exchange(&p->request.handover, HANDOVER_DONE) == HANDOVER_SUSPENDED)
+    if (atomic_exchange(&p->request->handover, HANDOVER_DONE) == HANDOVER_SUSPENDED)
         MHD_resume_connection(p->mhd);
 }
 
 static enum MHD_Result suspend(connection *p)
 {
     MHD_suspend_connection(p->mhd);
-    connection_enter(p, CONNECTION_WAITING, p->server->settings->solve_timeout_s);
-    /* Either this sees that the daemon stops, or the daemon sees who waits. */
-    if (p->server->stopping)
-        solve_give_up(p, "the daemon is shutting down");
-    if (atomic_exchange(&p->request.handover, HANDOVER_SUSPENDED) == HANDOVER_DONE)
+    connection_enter(p, CONNECTION_WAITING, p->service->settings->solve_timeout_s);
+    connection_end_if_stopping(p);
+    if (atomic_exchange(&p->request->handover, HANDOVER_SUSPENDED) == HANDOVER_DONE)
         MHD_resume_connection(p->mhd);
     return MHD_YES;
 }
 
 void solve_give_up(connection *p, const char *why)
 {
-    if (p->request.stream) {
-        stream_give_up(p->request.stream, why);
+    if (p->request->stream) {
+        stream_give_up(p->request->stream, why);
         return;
     }
-    waiter *w = &p->request.waiter;
-    if (!cache_release(p->server->cache, w))
+    waiter *w = &p->request->waiter;
+    if (!cache_release(p->service->cache, w))
         return;
     static const cache_key none = {{0}};
     w->on_done(w, unavailable(&none, why));
@@ -169,7 +166,7 @@ void solve_give_up(connection *p, const char *why)
 
 static enum MHD_Result reply_outcome(connection *p)
 {
-    request *r = &p->request;
+    request *r = p->request;
     entry *e = r->outcome;
     if (r->stream)
         return events_reply(p, NULL);
@@ -179,7 +176,7 @@ static enum MHD_Result reply_outcome(connection *p)
 
 static enum MHD_Result wait_outcome(connection *p)
 {
-    return p->request.stream ? events_reply(p, NULL) : suspend(p);
+    return p->request->stream ? events_reply(p, NULL) : suspend(p);
 }
 
 /* ---- the steps ---- */
@@ -212,7 +209,7 @@ static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *
 static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key *key,
                                    flight *f)
 {
-    server *s = p->server;
+    service *s = p->service;
     task *t = calloc(1, sizeof *t);
     const bool room = t && thread_pool_reserve(s->thread_pool);
     if (!room) {
@@ -224,7 +221,7 @@ static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key
         return reply_outcome(p);
     }
     *t = (task){.job.work = task_work,
-                .server = s,
+                .service = s,
                 .asking = a,
                 .key = *key,
                 .flight = f,
@@ -242,9 +239,9 @@ static bool wants_events(const request *r)
 /* A stored answer. */
 static enum MHD_Result reply_hit(connection *p, entry *hit)
 {
-    if (!wants_events(&p->request))
+    if (!wants_events(p->request))
         return reply_entry(p, hit, REPLY_HIT);
-    if (p->request.stream || events_open(p)) {
+    if (p->request->stream || events_open(p)) {
         events_free_waiter(p);
         return events_reply(p, hit);
     }
@@ -254,8 +251,8 @@ static enum MHD_Result reply_hit(connection *p, entry *hit)
 
 static enum MHD_Result solve(connection *p, evaluation *a)
 {
-    server *s = p->server;
-    request *r = &p->request;
+    service *s = p->service;
+    request *r = p->request;
     cache_key key;
     entry *hit = NULL;
     flight *lead = NULL;
@@ -288,7 +285,7 @@ static enum MHD_Result solve(connection *p, evaluation *a)
 /* Takes over `a`; NULL: it was refused, `why` says why. */
 static enum MHD_Result solve_read(connection *p, evaluation *a, double began_us, problem *why)
 {
-    p->request.read_us = clock_us() - began_us;
+    p->request->read_us = clock_us() - began_us;
     if (!a)
         return reply_problem(p, why);
     problem_clear(why);
@@ -297,7 +294,7 @@ static enum MHD_Result solve_read(connection *p, evaluation *a, double began_us,
 
 static enum MHD_Result solve_by_query(connection *p)
 {
-    request *r = &p->request;
+    request *r = p->request;
     const endpoint *e = r->route.endpoint;
     query_string q;
     q.count = 0;
@@ -310,9 +307,9 @@ static enum MHD_Result solve_by_query(connection *p)
     if (q.bytes->failed)
         return reply_entry(p, NULL, REPLY_HIT);
     /* Another owner than of bodies: a query's bytes may be some body's. */
-    cache_key_of_body(p->server->cache, &e->query, q.bytes->data, q.bytes->size,
+    cache_key_of_body(p->service->cache, &e->query, q.bytes->data, q.bytes->size,
                       &r->waiter.raw);
-    entry *hit = cache_find(p->server->cache, CACHE_RAW, &r->waiter.raw);
+    entry *hit = cache_find(p->service->cache, CACHE_RAW, &r->waiter.raw);
     if (hit)
         return reply_entry(p, hit, REPLY_HIT);
     const double began = clock_us();
@@ -322,11 +319,11 @@ static enum MHD_Result solve_by_query(connection *p)
 
 static enum MHD_Result solve_by_body(connection *p)
 {
-    request *r = &p->request;
-    const settings *set = p->server->settings;
-    cache_key_of_body(p->server->cache, r->route.endpoint, r->body.data, r->body.size,
+    request *r = p->request;
+    const settings *set = p->service->settings;
+    cache_key_of_body(p->service->cache, r->route.endpoint, r->body.data, r->body.size,
                       &r->waiter.raw);
-    entry *hit = cache_find(p->server->cache, CACHE_RAW, &r->waiter.raw);
+    entry *hit = cache_find(p->service->cache, CACHE_RAW, &r->waiter.raw);
     if (hit)
         return reply_hit(p, hit);
     const double began = clock_us();
@@ -342,7 +339,7 @@ static bool has_waited(connection *p)
 {
     if (atomic_load_explicit(&p->phase, memory_order_relaxed) != CONNECTION_WAITING)
         return false;
-    connection_enter(p, CONNECTION_READING, p->server->settings->request_timeout_s);
+    connection_enter(p, CONNECTION_READING, p->service->settings->request_timeout_s);
     return true;
 }
 
@@ -350,7 +347,7 @@ enum MHD_Result handle_endpoint(connection *p)
 {
     if (has_waited(p))
         return reply_outcome(p);
-    const bool has_body = p->request.method & (METHOD_POST | METHOD_QUERY);
+    const bool has_body = p->request->method & (METHOD_POST | METHOD_QUERY);
     return has_body ? solve_by_body(p) : solve_by_query(p);
 }
 
@@ -358,7 +355,7 @@ enum MHD_Result handle_endpoint(connection *p)
  * than to hear that no answer is there. */
 static enum MHD_Result find_in_store(connection *p, const cache_key *key)
 {
-    request *r = &p->request;
+    request *r = p->request;
     static const char path[] = "/v1/results/";
     const key_part parts[] = {{path, sizeof path}, {key, sizeof *key}};
     entry *hit = NULL;
@@ -367,7 +364,7 @@ static enum MHD_Result find_in_store(connection *p, const cache_key *key)
     r->waiter.on_done = wake;
     atomic_store(&r->handover, HANDOVER_NONE);
     if (key_of_parts(parts, 2, &r->waiter.raw))
-        turn = cache_acquire(p->server->cache, &r->waiter.raw, &r->waiter, &hit, &lead);
+        turn = cache_acquire(p->service->cache, &r->waiter.raw, &r->waiter, &hit, &lead);
     if (turn == ROLE_LEADER)
         return queue_solve(p, NULL, key, lead);
     r->collapsed = turn == ROLE_FOLLOWER;
@@ -379,10 +376,10 @@ enum MHD_Result handle_result(connection *p)
     cache_key key;
     if (has_waited(p))
         return reply_outcome(p);
-    if (!key_parse(p->request.route.rest, &key))
+    if (!key_parse(p->request->route.rest, &key))
         return reply_refusal(p, 400, "a key is 64 hexadecimal digits in lower case");
-    entry *e = cache_find(p->server->cache, CACHE_CANONICAL, &key);
-    if (!e && p->server->store)
+    entry *e = cache_find(p->service->cache, CACHE_CANONICAL, &key);
+    if (!e && p->service->store)
         return find_in_store(p, &key);
     return e ? reply_entry(p, e, REPLY_HIT) : reply_refusal(p, 404, NOT_STORED);
 }

@@ -6,7 +6,7 @@
 #ifndef HTTP_API_SOLVE_HANDLER_H
 #define HTTP_API_SOLVE_HANDLER_H
 
-#include "http/transport/connections.h"
+#include "http/api/request.h"
 
 enum MHD_Result handle_endpoint(struct connection *p); /* called again when it was suspended */
 enum MHD_Result handle_result(struct connection *p);   /* GET /v1/results/{key} */
@@ -15,7 +15,7 @@ void solve_give_up(struct connection *p, const char *why);
 
 /* Solves, lands the flight and tells all who wait. `given_us`: when it was given to the thread_pool
  * (clock_us), or 0. */
-void solve_flight(struct server *s, const evaluation *a, const cache_key *key, flight *f,
+void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
                   double given_us);
 /* A refusal as an entry, for all who wait for the same answer. NULL when memory ran out. */
 entry *refusal_entry(const cache_key *key, const problem *why);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <sys/resource.h> /* setpriority: on Linux of a thread */
 
-#include "http/transport/clock.h"
+#include "http/service/clock.h"
 
 /* The numerics keep their arrays on the heap; the default of 8 MiB for each would only count
  * against limits. */

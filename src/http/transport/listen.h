@@ -14,9 +14,6 @@ typedef struct listen_at {
     char name[LISTEN_NAME_SIZE]; /* "127.0.0.1:8080", "[::1]:8080" */
 } listen_at;
 
-/* "[host]:port" or "host:port"; false for anything else. */
-bool listen_split(const char *where, char host[256], char port[16]);
-
 /* Takes the socket that a service manager or a parent passes (systemd's protocol: descriptor 3,
  * LISTEN_FDS=1 and our LISTEN_PID). Otherwise binds "address:port" or "[address]:port". An
  * address that other machines can reach is refused unless `allow_any`. False with a sentence in

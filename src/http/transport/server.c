@@ -6,16 +6,13 @@
 #include <poll.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/random.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
-#include "http/transport/clock.h"
-#include "http/transport/log.h"
-#include "http/api/reply.h"
+#include "http/service/clock.h"
+#include "http/service/log.h"
 
 /* ---- what libmicrohttpd calls ---- */
 
@@ -23,7 +20,7 @@ static void on_connection(void *cls, struct MHD_Connection *mhd, void **context,
                           enum MHD_ConnectionNotificationCode code)
 {
     if (code == MHD_CONNECTION_NOTIFY_STARTED) {
-        *context = connection_open(cls, mhd);
+        *context = connection_open(((server *)cls)->connections, mhd);
     } else if (*context) {
         connection_close(*context);
         *context = NULL;
@@ -34,7 +31,8 @@ static enum MHD_Result on_request(void *cls, struct MHD_Connection *mhd, const c
                                   const char *verb, const char *version, const char *upload,
                                   size_t *upload_size, void **context)
 {
-    (void)cls;
+    const server *s = cls;
+    const handlers *h = s->handlers;
     connection *p = *context;
     if (!p) {
         const union MHD_ConnectionInfo *info =
@@ -43,11 +41,11 @@ static enum MHD_Result on_request(void *cls, struct MHD_Connection *mhd, const c
         if (!p)
             return MHD_NO; /* there was no memory for the connection */
         *context = p;
-        return request_begin(p, url, verb, version);
+        return h->begin(p, url, verb, version);
     }
     if (*upload_size == 0)
-        return request_finish(p);
-    const enum MHD_Result result = request_body(p, upload, *upload_size);
+        return h->finish(p);
+    const enum MHD_Result result = h->body(p, upload, *upload_size);
     *upload_size = 0;
     return result;
 }
@@ -55,11 +53,11 @@ static enum MHD_Result on_request(void *cls, struct MHD_Connection *mhd, const c
 static void on_completed(void *cls, struct MHD_Connection *mhd, void **context,
                          enum MHD_RequestTerminationCode code)
 {
-    (void)cls;
+    const server *s = cls;
     (void)mhd;
     (void)code;
     if (*context)
-        request_end(*context);
+        s->handlers->end(*context);
     *context = NULL;
 }
 
@@ -97,7 +95,7 @@ __attribute__((format(printf, 2, 0))) static void on_note(void *cls, const char 
                                                           va_list arguments)
 {
     const server *s = cls;
-    if (s->settings->log_requests != LOG_ALL)
+    if (s->service->settings->log_requests != LOG_ALL)
         return;
     char note[256];
     vsnprintf(note, sizeof note, format, arguments);
@@ -107,8 +105,6 @@ __attribute__((format(printf, 2, 0))) static void on_note(void *cls, const char 
 
 /* ---- start ---- */
 
-/* A page or a test that asks a dozen things at once is no overload. */
-#define QUEUE_FOR_EACH 16
 /* So many connections are accepted in one go. */
 #define ACCEPT_BURST 64
 
@@ -127,7 +123,7 @@ static void raise_file_limit(int64_t count)
 
 static struct MHD_Daemon *daemon_start(server *s)
 {
-    const settings *set = s->settings;
+    const settings *set = s->service->settings;
     const unsigned pool = set->event_threads > 1 ? (unsigned)set->event_threads : 0;
     const struct MHD_OptionItem options[] = {
         {MHD_OPTION_EXTERNAL_LOGGER, (intptr_t)on_note, s},
@@ -146,60 +142,17 @@ static struct MHD_Daemon *daemon_start(server *s)
         NULL, on_request, s, MHD_OPTION_ARRAY, options, MHD_OPTION_END);
 }
 
-static void note_store(bool away, const char *why)
+bool server_start(server *s, service *with, const handlers *h, char fault[256])
 {
-    if (away)
-        log_say("warning", "store away", "the shared store is left alone for a while: %s", why);
-    else
-        log_say("info", "store", "the shared store answers");
-}
-
-static store *open_store(const settings *set, int workers, char fault[256])
-{
-    const bool local = strncmp(set->store, "unix:/", 6) == 0;
-    const char *path = local ? set->store + 5 : "";
-    char host[256] = "", port[16];
-    if (local ? strlen(path) >= sizeof((struct sockaddr_un){0}).sun_path
-              : !listen_split(set->store, host, port)) {
-        snprintf(fault, 256,
-                 "store must be address:port, [address]:port or unix:/path, not "
-                 "\"%.100s\"",
-                 set->store);
-        return NULL;
-    }
-    return store_new(&(store_options){.host = host,
-                                      .port = local ? path : port,
-                                      .secret_file = set->store_secret_file,
-                                      .password_file = set->store_password_file,
-                                      .wait_ms = (int)set->store_timeout_ms,
-                                      .expiry_s = set->store_expiry_s,
-                                      .connections = workers,
-                                      .turned = note_store},
-                     fault);
-}
-
-bool server_start(server *s, const settings *set, char fault[256])
-{
-    *s = (server){.settings = set, .at.fd = -1};
-    if (*set->token_file && !(s->access = access_read(set->token_file, fault)))
-        return false;
-    if (!listen_open(set->listen, set->allow_non_loopback || s->access, &s->at, fault))
+    const settings *set = with->settings;
+    *s = (server){.service = with, .handlers = h, .at.fd = -1};
+    if (!listen_open(set->listen, set->allow_non_loopback || with->access, &s->at, fault))
         return false;
     raise_file_limit(set->connections);
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    const int workers = set->workers ? (int)set->workers : cores > 1 ? (int)cores : 1;
-    s->queue_depth =
-        set->queue_depth ? (size_t)set->queue_depth : QUEUE_FOR_EACH * (size_t)workers;
-    if (*set->store && !(s->store = open_store(set, workers, fault)))
+    if (!(s->connections = connections_new(with, h))) {
+        snprintf(fault, 256, "out of memory or threads");
         return false;
-    if (getrandom(&s->id_prefix, sizeof s->id_prefix, GRND_NONBLOCK) < 0)
-        s->id_prefix = (uint32_t)clock_us();
-    snprintf(fault, 256, "out of memory or threads");
-    if (!(s->no_memory = reply_no_memory()) || !(s->metrics = metrics_new()) ||
-        !(s->cache = cache_new((size_t)set->cache_bytes)) ||
-        !(s->thread_pool = thread_pool_new(workers, s->queue_depth)) ||
-        !(s->connections = connections_new(s)))
-        return false;
+    }
     errno = 0;
     if (!(s->daemon = daemon_start(s))) {
         snprintf(fault, 256, "libmicrohttpd does not start: %s", strerror(errno));
@@ -240,7 +193,8 @@ static int wait_signal(server *s, int signals, bool accepting, int wait_ms)
 {
     for (;;) {
         /* Beyond the limit connections wait in the backlog. */
-        const bool full = connections_count(s->connections) >= (size_t)s->settings->connections;
+        const bool full =
+            connections_count(s->connections) >= (size_t)s->service->settings->connections;
         struct pollfd ready[] = {{.fd = signals, .events = POLLIN},
                                  {.fd = accepting && !full ? s->at.fd : -1, .events = POLLIN}};
         poll(ready, 2, accepting && full ? 10 : wait_ms);
@@ -272,12 +226,12 @@ static bool all_gone(server *s, double begin)
 
 static bool drain(server *s, int signals, int got)
 {
-    const double begin = clock_us(), end = begin + s->settings->drain_timeout_s * 1e6;
-    atomic_store(&s->draining, true);
+    const double begin = clock_us(), end = begin + s->service->settings->drain_timeout_s * 1e6;
+    atomic_store(&s->service->draining, true);
     /* Who is connected already is served; who connects from now on is refused, or, where the
      * socket is shared, waits in it for whoever comes after us. */
     while (!s->at.inherited &&
-           connections_count(s->connections) < (size_t)s->settings->connections) {
+           connections_count(s->connections) < (size_t)s->service->settings->connections) {
         struct pollfd ready = {.fd = s->at.fd, .events = POLLIN};
         if (poll(&ready, 1, 0) <= 0 || !accept_some(s))
             break;
@@ -295,18 +249,14 @@ static bool drain(server *s, int signals, int got)
         connections_end_idle(s->connections, IDLE_GRACE_S);
     }
     /* A suspended connection would make MHD_stop_daemon abort: none may be left, or come. */
-    atomic_store(&s->stopping, true);
+    atomic_store(&s->service->stopping, true);
     const double last = clock_us() + LAST_WORDS_S * 1e6;
     do {
         connections_end_waiting(s->connections);
         nap();
-    } while ((connections_busy(s->connections) || server_solving(s)) && clock_us() < last);
+    } while ((connections_busy(s->connections) || service_solving(s->service)) &&
+             clock_us() < last);
     return clean;
-}
-
-bool server_solving(server *s)
-{
-    return thread_pool_count(s->thread_pool).working > 0;
 }
 
 bool server_run(server *s, int signals)
@@ -318,14 +268,7 @@ void server_free(server *s)
 {
     if (s->daemon)
         MHD_stop_daemon(s->daemon);
-    thread_pool_free(s->thread_pool);
     connections_free(s->connections);
-    cache_free(s->cache);
-    store_free(s->store);
-    metrics_free(s->metrics);
-    access_free(s->access);
-    if (s->no_memory)
-        MHD_destroy_response(s->no_memory);
     if (s->at.fd >= 0)
         close(s->at.fd);
 }

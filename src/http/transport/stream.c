@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "http/transport/clock.h"
-#include "http/transport/server.h"
+#include "http/service/clock.h"
+#include "http/transport/connections.h"
 
 /* The most that is copied to libmicrohttpd in one go. */
 #define STREAM_BLOCK 16384
@@ -15,7 +15,7 @@ void stream_init(stream *s, connection *p)
 {
     s->connection = p;
     s->references = 1;
-    s->wait_until_ms = clock_ms() + (int64_t)(p->server->settings->solve_timeout_s * 1000);
+    s->wait_until_ms = clock_ms() + (int64_t)(p->service->settings->solve_timeout_s * 1000);
 }
 
 void stream_ref(stream *s)
@@ -49,9 +49,7 @@ static void suspend(stream *s)
     connection *p = s->connection;
     MHD_suspend_connection(p->mhd);
     connection_enter(p, CONNECTION_WAITING, (double)(s->wait_until_ms - clock_ms()) / 1000);
-    /* Either this sees that the daemon stops, or the daemon sees who waits. */
-    if (p->server->stopping)
-        stream_give_up(s, "the daemon is shutting down");
+    connection_end_if_stopping(p);
     int none = HANDOVER_NONE;
     if (!atomic_compare_exchange_strong(&s->handover, &none, HANDOVER_SUSPENDED))
         MHD_resume_connection(p->mhd);
@@ -62,7 +60,7 @@ static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t most)
     (void)position;
     stream *s = cls;
     connection_enter(s->connection, CONNECTION_SENDING,
-                     s->connection->server->settings->request_timeout_s);
+                     s->connection->service->settings->request_timeout_s);
     while (s->sent == s->out.size) {
         s->out.size = s->sent = 0;
         /* Whatever comes after this is seen by `next` or wakes. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Time that only moves forward. */
-#ifndef HTTP_TRANSPORT_CLOCK_H
-#define HTTP_TRANSPORT_CLOCK_H
+#ifndef HTTP_SERVICE_CLOCK_H
+#define HTTP_SERVICE_CLOCK_H
 
 #include <stdint.h>
 #include <time.h>

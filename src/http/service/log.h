@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One JSON line on stderr for each event. No bodies, no tokens. */
-#ifndef HTTP_TRANSPORT_LOG_H
-#define HTTP_TRANSPORT_LOG_H
+#ifndef HTTP_SERVICE_LOG_H
+#define HTTP_SERVICE_LOG_H
 
 #include "json/write.h"
 
