@@ -13,6 +13,7 @@
 
 #include "http/service/clock.h"
 #include "http/service/log.h"
+#include "json/hex.h"
 
 /* ---- what libmicrohttpd calls ---- */
 
@@ -61,14 +62,6 @@ static void on_completed(void *cls, struct MHD_Connection *mhd, void **context,
     *context = NULL;
 }
 
-static int hex_value(char c)
-{
-    if (c >= '0' && c <= '9')
-        return c - '0';
-    c |= 0x20;
-    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-}
-
 /* Decodes in place. %00 stays as it is, for libmicrohttpd would end the string there: /a%00b
  * would be /a. So does what is no encoding. */
 static size_t on_unescape(void *cls, struct MHD_Connection *mhd, char *at)
@@ -77,8 +70,8 @@ static size_t on_unescape(void *cls, struct MHD_Connection *mhd, char *at)
     (void)mhd;
     char *to = at;
     for (const char *from = at; *from;) {
-        const int high = *from == '%' ? hex_value(from[1]) : -1;
-        const int low = high >= 0 ? hex_value(from[2]) : -1;
+        const int high = *from == '%' ? hex_digit(from[1]) : -1;
+        const int low = high >= 0 ? hex_digit(from[2]) : -1;
         if (low >= 0 && high + low > 0) {
             *to++ = (char)(high << 4 | low);
             from += 3;
