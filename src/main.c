@@ -61,6 +61,8 @@ int main(int argc, char *argv[])
         code = 2;
     } else if (action == SETTINGS_HELP) {
         settings_help(stdout);
+    } else if (action == SETTINGS_MAN) {
+        settings_man(STRUM_DAEMON_VERSION, stdout);
     } else if (action == SETTINGS_VERSION) {
         puts("strumd " STRUM_DAEMON_VERSION);
     } else if (action == SETTINGS_PRINT) {
