@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <time.h>
 
-/* Good to a few milliseconds, and nearly free. */
+/* Accurate to a few milliseconds, and nearly free. */
 static inline int64_t clock_ms(void)
 {
     struct timespec now;

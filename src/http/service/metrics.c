@@ -166,14 +166,13 @@ void metrics_write(const metrics *m, const metrics_snapshot *now, strbuf *out)
     value(out, "solve_failures_total", "counter",
           "Computations that ended without an answer: impossible, given up, or failed.",
           m->solve_failures);
-    value(out, "cancels_total", "counter", "Answers given up: nobody waited any more.",
-          c.cancels);
+    value(out, "cancels_total", "counter",
+          "Answers given up: all clients had disconnected or timed out.", c.cancels);
     value(out, "cache_evictions_total", "counter", "Answers dropped for room.", c.evictions);
     value(out, "cache_entries", "gauge", "Answers stored.", c.entries);
     value(out, "cache_bytes", "gauge", "Memory of stored answers, bookkeeping included.",
           c.bytes);
-    value(out, "cache_limit_bytes", "gauge", "Most memory that stored answers may take.",
-          c.cap);
+    value(out, "cache_limit_bytes", "gauge", "Maximum memory for stored answers.", c.cap);
     if (now->has_store)
         write_store(now->store, out);
     value(out, "flights", "gauge", "Answers being computed or waiting for it.", c.flights);

@@ -23,7 +23,7 @@ struct connections {
 
 /* ---- the reaper ---- */
 
-/* A client that closes its side of a suspended connection is not noticed by libmicrohttpd. */
+/* libmicrohttpd does not notice a client that closes its side of a suspended connection. */
 static bool has_left(const connection *p)
 {
     char byte;
@@ -148,7 +148,7 @@ void connection_enter(connection *p, connection_phase phase, double seconds)
     const bool waiting =
         phase == CONNECTION_WAITING ||
         atomic_load_explicit(&p->phase, memory_order_relaxed) == CONNECTION_WAITING;
-    /* The reaper works on the request of one that waits: not while that changes. */
+    /* The reaper works on the request of a waiting connection: not while the phase changes. */
     if (waiting)
         pthread_mutex_lock(&p->all->lock);
     atomic_store_explicit(&p->deadline_ms, clock_ms() + (int64_t)(seconds * 1000),
@@ -189,7 +189,7 @@ size_t connections_busy(connections *all)
 void connections_end_idle(connections *all, double seconds)
 {
     const settings *set = all->service->settings;
-    /* When the deadline of one that has been idle since then is. */
+    /* The deadline of a connection that has been idle for exactly that long. */
     const int64_t limit =
         clock_ms() + (int64_t)((set->idle_timeout_s + set->request_timeout_s - seconds) * 1000);
     pthread_mutex_lock(&all->lock);

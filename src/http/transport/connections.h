@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The connections, and the reaper: a thread that cuts those which take too long.
- * libmicrohttpd's own timeout is one of silence only; a client that drips a byte now and then
- * would stay for ever.
+ * The connections, and the reaper: a thread that closes those that pass their deadline.
+ * libmicrohttpd's own timeout only ends silent connections; a client that sends a byte now and
+ * then would stay forever.
  */
 #ifndef HTTP_TRANSPORT_CONNECTIONS_H
 #define HTTP_TRANSPORT_CONNECTIONS_H
@@ -14,9 +14,9 @@
 #include "http/service/service.h"
 
 typedef enum connection_phase {
-    CONNECTION_IDLE,    /* between requests, or a request's headers are under way */
-    CONNECTION_READING, /* headers are there, the body is under way */
-    CONNECTION_WAITING, /* suspended until an answer is there */
+    CONNECTION_IDLE,    /* between requests, or receiving headers */
+    CONNECTION_READING, /* headers received, receiving the body */
+    CONNECTION_WAITING, /* suspended until an answer is ready */
     CONNECTION_SENDING
 } connection_phase;
 
@@ -60,7 +60,7 @@ void connections_free(connections *all);
 
 /* Returns NULL when memory ran out. */
 connection *connection_open(connections *all, struct MHD_Connection *mhd);
-/* Must be called before the descriptor is closed: the reaper then no longer uses it. */
+/* Must be called before the descriptor is closed, so that the reaper no longer uses it. */
 void connection_close(connection *p);
 /* Begins the next phase, which must end within `seconds`. */
 void connection_enter(connection *p, connection_phase phase, double seconds);
@@ -68,14 +68,14 @@ void connection_enter(connection *p, connection_phase phase, double seconds);
  * this sees that the daemon stops, or connections_end_waiting sees the connection. */
 void connection_end_if_stopping(connection *p);
 
-/* How many there are, how many there ever were, and how many have a request under way. */
+/* The number of connections open, of those ever opened, and of those with a request under way. */
 size_t connections_count(connections *all);
 size_t connections_opened(connections *all);
 size_t connections_busy(connections *all);
-/* Ends connections that are idle and have been for `seconds`. */
+/* Closes connections that have been idle for `seconds`. */
 void connections_end_idle(connections *all, double seconds);
-/* Gives up all waiting: each gets 503 at once, and what nobody waits for any more is cancelled.
- */
+/* Answers every waiting connection with 503 now; solves that no client waits for any more are
+ * cancelled. */
 void connections_end_waiting(connections *all);
 
 #endif

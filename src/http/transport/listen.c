@@ -13,7 +13,7 @@
 
 #include "http/service/address.h"
 
-/* A burst of new connections waits here; the kernel's own limit cuts it. */
+/* A burst of new connections waits here; the kernel's limit may be lower. */
 #define LISTEN_BACKLOG 1024
 
 static bool is_loopback(const struct sockaddr *address)
@@ -58,10 +58,10 @@ static int bind_first(const struct addrinfo *address)
     return -1;
 }
 
-/* The first of the descriptors that sd_listen_fds(3) tells of. */
+/* The first descriptor passed, by sd_listen_fds(3). */
 #define PASSED_FD 3
 
-/* Whether a socket is passed; *number of them. */
+/* Returns whether sockets are passed; *number is how many. */
 static bool is_passed(long *number)
 {
     const char *pid = getenv("LISTEN_PID"), *count = getenv("LISTEN_FDS");

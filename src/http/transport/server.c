@@ -62,8 +62,8 @@ static void on_completed(void *cls, struct MHD_Connection *mhd, void **context,
     *context = NULL;
 }
 
-/* Decodes in place. %00 stays as it is, for libmicrohttpd would end the string there: /a%00b
- * would be /a. So does what is no encoding. */
+/* Decodes in place. %00 is left as it is, because libmicrohttpd would end the string there
+ * (/a%00b would be /a), and so are sequences that are no encoding. */
 static size_t on_unescape(void *cls, struct MHD_Connection *mhd, char *at)
 {
     (void)cls;
@@ -83,7 +83,7 @@ static size_t on_unescape(void *cls, struct MHD_Connection *mhd, char *at)
     return (size_t)(to - at);
 }
 
-/* Its own notes are about what clients do wrong: they are for those who log every request. */
+/* libmicrohttpd notes mistakes of clients: logged only if every request is. */
 __attribute__((format(printf, 2, 0))) static void on_note(void *cls, const char *format,
                                                           va_list arguments)
 {
@@ -98,10 +98,10 @@ __attribute__((format(printf, 2, 0))) static void on_note(void *cls, const char 
 
 /* ---- start ---- */
 
-/* So many connections are accepted in one go. */
+/* Maximum number of connections accepted in one go. */
 #define ACCEPT_BURST 64
 
-/* A descriptor for every connection, and some to spare. */
+/* Asks for a descriptor for each connection, and some to spare. */
 static void raise_file_limit(int64_t count)
 {
     struct rlimit limit;
@@ -123,10 +123,10 @@ static struct MHD_Daemon *daemon_start(server *s)
         {MHD_OPTION_NOTIFY_CONNECTION, (intptr_t)on_connection, s},
         {MHD_OPTION_NOTIFY_COMPLETED, (intptr_t)on_completed, s},
         {MHD_OPTION_UNESCAPE_CALLBACK, (intptr_t)on_unescape, s},
-        /* We stop accepting at the limit; what is accepted in one go then is not refused. */
+        /* We stop accepting at the limit; the last burst may exceed it and is not refused. */
         {MHD_OPTION_CONNECTION_LIMIT, (intptr_t)set->connections + ACCEPT_BURST, NULL},
         {MHD_OPTION_CONNECTION_MEMORY_LIMIT, (intptr_t)set->connection_memory_bytes, NULL},
-        /* Whole seconds here; the reaper is exact. */
+        /* libmicrohttpd takes whole seconds; the reaper is exact. */
         {MHD_OPTION_CONNECTION_TIMEOUT, (intptr_t)ceil(set->idle_timeout_s), NULL},
         {pool ? MHD_OPTION_THREAD_POOL_SIZE : MHD_OPTION_END, (intptr_t)pool, NULL},
         {MHD_OPTION_END, 0, NULL}};
@@ -167,7 +167,7 @@ static bool accept_some(server *s)
             accept4(s->at.fd, (struct sockaddr *)&address, &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
         if (fd < 0)
             return errno == EAGAIN || errno == EINTR || errno == ECONNABORTED;
-        /* Refused, it was closed. */
+        /* libmicrohttpd closes a connection that it refuses. */
         if (!MHD_add_connection(s->daemon, fd, (struct sockaddr *)&address, size))
             return false;
         s->accepted++;
@@ -180,8 +180,8 @@ static void nap(void)
     nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
 }
 
-/* A signal, if there is one within `wait_ms` (-1: however long), or 0. With `accepting` new
- * connections are accepted meanwhile. */
+/* Returns a signal that comes within `wait_ms` (-1: no limit), or 0. With `accepting`, accepts
+ * new connections meanwhile. */
 static int wait_signal(server *s, int signals, bool accepting, int wait_ms)
 {
     for (;;) {
@@ -203,11 +203,11 @@ static int wait_signal(server *s, int signals, bool accepting, int wait_ms)
 
 /* ---- stop ---- */
 
-/* So long an idle connection is left open while draining: its client may just be sending. */
+/* While draining, an idle connection stays open this long: its client may be about to send. */
 #define IDLE_GRACE_S 1.0
-/* What was given up is answered within this time. */
+/* Requests given up are answered within this time. */
 #define LAST_WORDS_S 2.0
-/* Within this time an event thread has taken up a new connection. */
+/* An event thread takes up a new connection within this time. */
 #define TAKE_UP_S 1.0
 
 static bool all_gone(server *s, double begin)
@@ -221,8 +221,8 @@ static bool drain(server *s, int signals, int got)
 {
     const double begin = clock_us(), end = begin + s->service->settings->drain_timeout_s * 1e6;
     atomic_store(&s->service->draining, true);
-    /* Who is connected already is served; who connects from now on is refused, or, where the
-     * socket is shared, waits in it for whoever comes after us. */
+    /* Clients already connected are served. Clients that connect from now on are refused, or,
+     * where the socket is shared, wait in it for the next process. */
     while (!s->at.inherited &&
            connections_count(s->connections) < (size_t)s->service->settings->connections) {
         struct pollfd ready = {.fd = s->at.fd, .events = POLLIN};
@@ -231,7 +231,7 @@ static bool drain(server *s, int signals, int got)
     }
     close(s->at.fd);
     s->at.fd = -1;
-    /* Who reads this line finds it so: not ready, and nothing listens. */
+    /* When this line is read it is true: not ready, and nothing listens. */
     log_say("info", "draining", "%s", strsignal(got));
     bool clean = true;
     while (!all_gone(s, begin)) {
@@ -241,7 +241,7 @@ static bool drain(server *s, int signals, int got)
         }
         connections_end_idle(s->connections, IDLE_GRACE_S);
     }
-    /* A suspended connection would make MHD_stop_daemon abort: none may be left, or come. */
+    /* MHD_stop_daemon aborts if a connection is suspended: none may be left, and none may come. */
     atomic_store(&s->service->stopping, true);
     const double last = clock_us() + LAST_WORDS_S * 1e6;
     do {

@@ -6,7 +6,7 @@
 #include "http/service/clock.h"
 #include "http/transport/connections.h"
 
-/* The most that is copied to libmicrohttpd in one go. */
+/* Maximum number of bytes copied to libmicrohttpd in one go. */
 #define STREAM_BLOCK 16384
 
 enum { HANDOVER_NONE, HANDOVER_SUSPENDED, HANDOVER_WOKEN };
@@ -33,7 +33,7 @@ void stream_unref(stream *s)
 
 void stream_wake(stream *s)
 {
-    /* A suspended connection stays until it is resumed, and its peer with it. */
+    /* A suspended connection stays until it is resumed. */
     if (atomic_exchange(&s->handover, HANDOVER_WOKEN) == HANDOVER_SUSPENDED)
         MHD_resume_connection(s->connection->mhd);
 }
@@ -55,7 +55,7 @@ static void suspend(stream *s)
         MHD_resume_connection(p->mhd);
 }
 
-static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t most)
+static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t room)
 {
     (void)position;
     stream *s = cls;
@@ -63,7 +63,7 @@ static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t most)
                      s->connection->service->settings->request_timeout_s);
     while (s->sent == s->out.size) {
         s->out.size = s->sent = 0;
-        /* Whatever comes after this is seen by `next` or wakes. */
+        /* What comes after this is seen by `next`, or wakes the stream. */
         atomic_store(&s->handover, HANDOVER_NONE);
         const stream_turn turn = s->next(s);
         if (turn == STREAM_BROKEN || s->out.failed)
@@ -75,7 +75,7 @@ static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t most)
             return 0;
         }
     }
-    const size_t left = s->out.size - s->sent, size = left < most ? left : most;
+    const size_t left = s->out.size - s->sent, size = left < room ? left : room;
     memcpy(to, s->out.data + s->sent, size);
     s->sent += size;
     return (ssize_t)size;
