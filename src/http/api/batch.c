@@ -10,21 +10,20 @@
 #include "http/api/batch_reader.h"
 #include "http/api/reply.h"
 
-/* So many items may have been begun and not been sent, or answers of so many bytes: whichever
- * is less. */
+/* Limits on items started but not yet sent: their number, and the bytes of their answers. */
 #define WINDOW       64
 #define WINDOW_BYTES (1 << 20)
-/* A worker that has been at a batch for so long goes on to what others wait for. */
+/* After this time on a batch a worker takes the next job in the queue. */
 #define TURN_US 1000
-/* Workers at one batch; never more than there are. */
+/* Maximum number of workers on one batch. */
 #define RUNNERS 16
-/* Lines are handed on when they are so many bytes together. */
+/* Lines are collected up to this many bytes before they are sent. */
 #define LINES_SIZE 16384
 
 typedef enum slot_state {
     SLOT_FREE,
     SLOT_BEGUN,   /* a worker reads it */
-    SLOT_WAITING, /* its waiter was taken by the cache */
+    SLOT_WAITING, /* its waiter is in the cache */
     SLOT_DONE
 } slot_state;
 
@@ -86,7 +85,7 @@ static void wake(waiter *w, entry *outcome)
     stream_unref(&b->stream);
 }
 
-/* {"path", "request"}: the endpoint and the request, or NULL. */
+/* Reads {"path", "request"}; returns the endpoint, or NULL with the faults in `p`. */
 static const endpoint *read_members(const page *pages, const cJSON *item, const cJSON **asked,
                                     problem *p)
 {
@@ -133,7 +132,7 @@ static evaluation *read_item(const slot *s, problem *p)
     return a;
 }
 
-/* Enters the flight; leads it when nobody else does. */
+/* Joins the flight for this answer, or leads it if there is none yet. */
 static void solve(slot *s, const evaluation *a)
 {
     batch *b = s->batch;
@@ -153,11 +152,11 @@ static void solve(slot *s, const evaluation *a)
         return;
     }
     pthread_mutex_lock(&b->lock);
-    /* Woken already, it may be sent, and the slot another item's. */
+    /* If it was woken already, it may be sent, and the slot may hold another item. */
     const bool waits = s->index == index && s->state == SLOT_BEGUN;
     if (waits)
         s->state = SLOT_WAITING;
-    /* Who ended the batch meanwhile did not see this one wait. */
+    /* If the batch ended meanwhile, that thread did not see this item wait. */
     const bool late = waits && b->ended && cache_release(b->service->cache, &s->waiter);
     pthread_mutex_unlock(&b->lock);
     if (late)
@@ -194,7 +193,7 @@ static bool has_room(const batch *b)
            (b->bytes < WINDOW_BYTES || b->begun == b->sent);
 }
 
-/* The next item, or NULL: the runner has ended. */
+/* Returns the next item, or NULL: the runner then has ended. */
 static slot *begin_item(batch *b, runner *r)
 {
     slot *s = NULL;
@@ -225,7 +224,7 @@ static void run(job *j)
     stream_unref(&b->stream);
 }
 
-/* Under the lock: a worker for each item that may begin. */
+/* Starts a worker for each item that may begin. Under the lock. */
 static void start_runners(batch *b)
 {
     size_t left = b->total - b->begun;
@@ -266,7 +265,7 @@ static void write_line(size_t index, const entry *outcome, const char *given_up,
     strbuf_add(out, "\n", 1);
 }
 
-/* Nobody wants what is under way. */
+/* No client wants the items under way any more. */
 static void end(stream *st)
 {
     batch *b = (batch *)(void *)st;
@@ -345,7 +344,7 @@ static batch *batch_new(connection *p)
 
 enum MHD_Result batch_answer(connection *p)
 {
-    const int64_t most = p->service->settings->batch_items;
+    const int64_t limit = p->service->settings->batch_items;
     batch *b = batch_new(p);
     problem why = {0};
     if (!b)
@@ -354,8 +353,8 @@ enum MHD_Result batch_answer(connection *p)
     if (!batch_reader_open(&b->items, b->body.data ? b->body.data : "", b->body.size,
                            p->request->is_lines, &b->total, &why))
         return reply_problem(p, &why);
-    if (b->total > (size_t)most)
+    if (b->total > (size_t)limit)
         return reply_refusal(p, 413, "%zu items; a batch has at most %lld", b->total,
-                             (long long)most);
+                             (long long)limit);
     return reply_stream(p, &b->stream, "application/x-ndjson");
 }

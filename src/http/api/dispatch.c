@@ -9,8 +9,8 @@
 #include "http/service/clock.h"
 #include "http/api/reply.h"
 
-/* So much more of a body that is too large is read, to answer at its end: libmicrohttpd cannot
- * answer amid a chunked upload. */
+/* A body too large is read for this many bytes more, to answer at its end: libmicrohttpd cannot
+ * answer in the middle of a chunked upload. */
 #define BODY_DRAIN (1 << 20)
 
 /* ---- the headers ---- */
@@ -53,16 +53,16 @@ static bool is_traceparent(const char *value, size_t size)
     return size == sizeof form - 1;
 }
 
-static enum MHD_Result look_at(void *cls, enum MHD_ValueKind kind, const char *name,
-                               size_t name_size, const char *value, size_t value_size)
+static enum MHD_Result read_header(void *cls, enum MHD_ValueKind kind, const char *name,
+                                   size_t name_size, const char *value, size_t value_size)
 {
     (void)kind;
     headers *h = cls;
     request *r = h->request;
     if (!value)
         value = "";
-    /* What libmicrohttpd lets through: "Content-Length : 5" is no length to it, and the body
-     * would be the next request. */
+    /* libmicrohttpd lets such names through: "Content-Length : 5" is no length to it, and the
+     * body would be read as the next request. */
     if (!is_token(name, name_size))
         h->fault = "a header's name has a character that no name may have";
 #define IS(text) (name_size == sizeof text - 1 && strcasecmp(name, text) == 0)
@@ -98,7 +98,8 @@ static enum MHD_Result look_at(void *cls, enum MHD_ValueKind kind, const char *n
     return MHD_YES;
 }
 
-/* What makes it unclear where this request ends (RFC 9112 6.3) ends the connection. */
+/* Refuses headers that leave it unclear where this request ends (RFC 9112 6.3), and ends the
+ * connection. */
 static void check_framing(const headers *h, request *r, const char *version)
 {
     const bool chunked =
@@ -121,7 +122,7 @@ static void check_framing(const headers *h, request *r, const char *version)
     r->close = true;
 }
 
-/* With parameters or without. */
+/* Compares a media type, with or without parameters. */
 static bool is_type(const char *type, const char *wanted)
 {
     const size_t size = strlen(wanted);
@@ -131,25 +132,25 @@ static bool is_type(const char *type, const char *wanted)
     return *type == '\0' || *type == ';';
 }
 
-static uint64_t most_body(const connection *p)
+static uint64_t body_limit(const connection *p)
 {
     const settings *set = p->service->settings;
     return (uint64_t)(p->request->route.batch ? set->batch_body_bytes : set->body_bytes);
 }
 
-/* Memory for so many only: each keeps its body until its last item. */
+/* Counts a batch; returns false beyond the limit. Each keeps its body until its last item. */
 static bool count_batch(connection *p)
 {
     p->request->counted = true; /* until dispatch_end */
     return atomic_fetch_add(&p->service->batches, 1) < p->service->settings->batches;
 }
 
-/* Everything that can be said before the body is there. */
+/* Refuses everything that can be refused before the body has come. */
 static void check(connection *p, const headers *h)
 {
     request *r = p->request;
     const bool takes_body = r->method == METHOD_POST || r->method == METHOD_QUERY;
-    const uint64_t most = most_body(p);
+    const uint64_t limit = body_limit(p);
     const bool has_body = h->encodings || (h->content_length && strcmp(h->content_length, "0"));
     /* Preflights carry no token, by the CORS protocol. */
     if (!r->route.open && r->method != METHOD_OPTIONS &&
@@ -157,9 +158,9 @@ static void check(connection *p, const headers *h)
         problem_set(&r->refusal, 401, "%s",
                     h->authorization ? "this token is not known"
                                      : "a token is needed: Authorization: Bearer TOKEN");
-    } else if (h->content_length && strtoull(h->content_length, NULL, 10) > most) {
+    } else if (h->content_length && strtoull(h->content_length, NULL, 10) > limit) {
         problem_set(&r->refusal, 413, "the body is larger than %llu bytes",
-                    (unsigned long long)most);
+                    (unsigned long long)limit);
         r->close = true;
     } else if (r->method == METHOD_UNKNOWN) {
         problem_set(&r->refusal, 501, "no such method is known; methods are case-sensitive");
@@ -198,7 +199,7 @@ static void check(connection *p, const headers *h)
     }
 }
 
-/* Printable and short, for messages and the log. */
+/* Keeps the URL, printable and short, for messages and the log. */
 static void note_url(request *r, const char *url)
 {
     size_t i = 0;
@@ -220,7 +221,7 @@ enum MHD_Result dispatch_begin(connection *p, const char *url, const char *verb,
     r->method = method_of(verb);
     r->route = route_find(p->service->pages, url);
     headers h = {.request = r};
-    MHD_get_connection_values_n(p->mhd, MHD_HEADER_KIND, look_at, &h);
+    MHD_get_connection_values_n(p->mhd, MHD_HEADER_KIND, read_header, &h);
     r->is_lines =
         r->route.batch && h.content_type && is_type(h.content_type, "application/x-ndjson");
     check_framing(&h, r, version);
@@ -237,14 +238,14 @@ enum MHD_Result dispatch_begin(connection *p, const char *url, const char *verb,
 enum MHD_Result dispatch_body(connection *p, const char *bytes, size_t size)
 {
     request *r = p->request;
-    const uint64_t most = most_body(p);
+    const uint64_t limit = body_limit(p);
     r->body_seen += size;
-    if (r->body_seen > most && !r->refusal.status) {
+    if (r->body_seen > limit && !r->refusal.status) {
         problem_set(&r->refusal, 413, "the body is larger than %llu bytes",
-                    (unsigned long long)most);
+                    (unsigned long long)limit);
         r->close = true;
     }
-    if (r->body_seen > most + BODY_DRAIN)
+    if (r->body_seen > limit + BODY_DRAIN)
         return MHD_NO;
     if (!r->refusal.status)
         strbuf_add(&r->body, bytes, size);
@@ -267,7 +268,7 @@ void dispatch_end(connection *p)
 {
     request *r = p->request;
     const settings *set = p->service->settings;
-    /* First: from here on the reaper lets the request alone. */
+    /* First: from here on the reaper leaves the request alone. */
     connection_enter(p, CONNECTION_IDLE, set->idle_timeout_s + set->request_timeout_s);
     request_release(r);
     if (r->counted)

@@ -13,7 +13,7 @@ typedef struct events {
     waiter waiter;
     cache *cache;
     pthread_mutex_t lock; /* of what follows */
-    progress last;        /* a slow reader gets the latest only */
+    progress last;        /* a slow client gets only the latest */
     char what[80];
     bool told, done, ended;
     entry *outcome; /* referenced; NULL when done: memory ran out */
@@ -26,7 +26,7 @@ static events *events_of(waiter *w)
 
 /* ---- what other threads say ---- */
 
-static void hear(waiter *w, const progress *so_far)
+static void on_progress(waiter *w, const progress *so_far)
 {
     events *e = events_of(w);
     pthread_mutex_lock(&e->lock);
@@ -134,7 +134,8 @@ waiter *events_open(connection *p)
     stream_ref(&e->stream); /* the waiter's */
     pthread_mutex_init(&e->lock, NULL);
     e->cache = p->service->cache;
-    e->waiter = (waiter){.raw = p->request->waiter.raw, .on_done = wake, .on_progress = hear};
+    e->waiter =
+        (waiter){.raw = p->request->waiter.raw, .on_done = wake, .on_progress = on_progress};
     p->request->stream = &e->stream;
     return &e->waiter;
 }

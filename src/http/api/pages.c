@@ -10,7 +10,7 @@
 #include "commit.h"
 #include "http/api/reply.h"
 
-/* So long the queue may be full before others are asked to send elsewhere. */
+/* After the queue has been full for this time, load balancers are told to send elsewhere. */
 #define FULL_MS 5000
 
 static enum MHD_Result say_status(connection *p, const char *status)

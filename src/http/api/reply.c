@@ -16,7 +16,7 @@
 
 static void header(struct MHD_Response *response, const char *name, const char *value)
 {
-    /* Out of memory: an answer without one of these is still right. */
+    /* Fails without memory only; an answer without one of these headers is still right. */
     (void)MHD_add_response_header(response, name, value);
 }
 
@@ -59,7 +59,7 @@ static void log_request(const connection *p, int status, size_t size)
     if (which == LOG_NONE || (which == LOG_ERRORS && (status < 500 || status == 501)) ||
         (which == LOG_REFUSALS && status < 400))
         return;
-    /* What went well may be too much to log it all. */
+    /* There may be too many successful requests to log them all. */
     if (status < 400 &&
         atomic_fetch_add_explicit(&p->service->logged, 1, memory_order_relaxed) %
                 (uint64_t)p->service->settings->log_sample !=
@@ -84,7 +84,7 @@ static void make_id(connection *p)
                  atomic_fetch_add(&p->service->id_next, 1));
 }
 
-/* Sends `response` as it is. */
+/* Sends `response` unchanged. */
 static enum MHD_Result queue(connection *p, int status, struct MHD_Response *response,
                              size_t size)
 {
@@ -95,7 +95,7 @@ static enum MHD_Result queue(connection *p, int status, struct MHD_Response *res
     return MHD_queue_response(p->mhd, (unsigned)status, response);
 }
 
-/* Completes `response` with what depends on the request, sends and drops it. */
+/* Adds the headers that depend on the request, sends the response and drops it. */
 static enum MHD_Result finish(connection *p, int status, struct MHD_Response *response,
                               size_t size)
 {
@@ -151,7 +151,7 @@ static int prebuilt_for(const request *r)
     return r->route.endpoint ? FOR_QUESTION : FOR_KEY;
 }
 
-/* The headers of an answer that depend on nothing of the request but its address. */
+/* Adds the headers of an answer that depend only on the address asked. */
 static void describe(const service *s, int address, struct MHD_Response *response,
                      const entry *e)
 {
@@ -173,26 +173,26 @@ static void describe(const service *s, int address, struct MHD_Response *respons
     header(response, "Cache-Control", value_of[s->access != NULL][address]);
 }
 
-static void prebuilt_drop(void *face)
+static void prebuilt_drop(void *ready)
 {
-    MHD_destroy_response(face);
+    MHD_destroy_response(ready);
 }
 
 void reply_prebuild(service *s, entry *e)
 {
     e->prebuilt_drop = prebuilt_drop;
     for (int i = 0; i < ENTRY_PREBUILT; i++) {
-        struct MHD_Response *face = MHD_create_response_from_buffer_with_free_callback_cls(
+        struct MHD_Response *ready = MHD_create_response_from_buffer_with_free_callback_cls(
             e->size, e->body, release_body, e);
-        if (!face)
-            return; /* hits are then made anew each time */
+        if (!ready)
+            return; /* each hit then makes its own response */
         entry_hold_body(e);
-        header(face, "Content-Type", JSON_TYPE);
-        describe(s, i, face, e);
-        header(face, "Cache-Status", "strum; hit");
+        header(ready, "Content-Type", JSON_TYPE);
+        describe(s, i, ready, e);
+        header(ready, "Cache-Status", "strum; hit");
         if (*s->settings->cors_origins)
-            header(face, "Vary", "Origin");
-        e->prebuilt[i] = face;
+            header(ready, "Vary", "Origin");
+        e->prebuilt[i] = ready;
     }
 }
 
@@ -243,12 +243,12 @@ enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
     const request *r = p->request;
     if (!e)
         return queue(p, 503, p->service->no_memory, 0);
-    struct MHD_Response *face = source == REPLY_HIT ? e->prebuilt[prebuilt_for(r)] : NULL;
-    const bool plain = face && !r->if_none_match && !r->given_id && !r->traceparent &&
+    struct MHD_Response *ready = source == REPLY_HIT ? e->prebuilt[prebuilt_for(r)] : NULL;
+    const bool plain = ready && !r->if_none_match && !r->given_id && !r->traceparent &&
                        !r->close && (!r->origin || !*p->service->settings->cors_origins) &&
                        !p->service->draining && p->service->settings->log_requests != LOG_ALL;
     if (plain) {
-        const enum MHD_Result result = queue(p, 200, face, e->size);
+        const enum MHD_Result result = queue(p, 200, ready, e->size);
         entry_unref(e);
         return result;
     }
@@ -338,7 +338,7 @@ enum MHD_Result reply_asset(connection *p, const asset *a)
             header(response, "Content-Encoding", "gzip");
         if (!has)
             header(response, "Content-Type", a->type);
-        /* The page is what this daemon sent, asks nobody else, and is nobody's frame. */
+        /* The page loads from this daemon only, and no other page may frame it. */
         header(response, "Content-Security-Policy",
                "default-src 'none'; script-src 'self'; style-src 'self'; "
                "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; "

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which path is served by whom, and by which methods. */
+/* Finds the function and the methods of a path, in a table passed from above. */
 #ifndef HTTP_API_ROUTE_H
 #define HTTP_API_ROUTE_H
 

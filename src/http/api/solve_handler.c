@@ -8,11 +8,11 @@
 #include "http/api/events.h"
 #include "http/api/reply.h"
 
-/* A flight that a worker shall solve, or only look for in the shared store. */
+/* A flight for a worker to solve, or only to look up in the shared store. */
 typedef struct task {
     job job;
     service *service;
-    evaluation *asking; /* owned; NULL: only look */
+    evaluation *asking; /* owned; NULL: only look it up */
     cache_key key;
     flight *flight;
     double given_us;
@@ -36,28 +36,28 @@ static entry *unavailable(const cache_key *key, const char *detail)
     return e;
 }
 
-/* Who looks on is told so often at most. */
-#define TELL_MS 250
+/* Minimum time between two reports of progress. */
+#define PROGRESS_MS 250
 
-typedef struct telling {
+typedef struct progress_report {
     observer observer;
     cache *cache;
     flight *flight;
-    int64_t told_ms, steps;
-} telling;
+    int64_t sent_ms, steps;
+} progress_report;
 
-static void tell(observer *w, const progress *so_far)
+static void report_progress(observer *w, const progress *so_far)
 {
-    telling *t = (telling *)(void *)w;
+    progress_report *t = (progress_report *)(void *)w;
     t->steps = so_far->evaluations;
     const int64_t now = clock_ms();
-    if (t->told_ms && now - t->told_ms < TELL_MS)
+    if (t->sent_ms && now - t->sent_ms < PROGRESS_MS)
         return;
-    t->told_ms = now;
+    t->sent_ms = now;
     cache_publish_progress(t->cache, t->flight, so_far);
 }
 
-/* What takes longer than this goes to a worker, and may be in the shared store. */
+/* A costly request goes to a worker, and its answer may be in the shared store. */
 static bool is_costly(const service *s, const evaluation *a)
 {
     return evaluation_cost_us(a) >= s->settings->inline_us;
@@ -76,8 +76,9 @@ void solve_flight(service *s, const evaluation *a, const cache_key *key, flight 
                   double given_us)
 {
     const double queue_us = given_us > 0 ? clock_us() - given_us : 0;
-    telling t = {
-        {.cancel = flight_cancel(f), .progress = tell}, .cache = s->cache, .flight = f};
+    progress_report t = {{.cancel = flight_cancel(f), .progress = report_progress},
+                         .cache = s->cache,
+                         .flight = f};
     const bool share = is_costly(s, a);
     entry *e = share && !*t.observer.cancel ? find_stored(s, key) : NULL;
     if (!e) {
@@ -96,8 +97,8 @@ void solve_flight(service *s, const evaluation *a, const cache_key *key, flight 
     entry_unref(e);
 }
 
-/* As solve_flight, for who asks by the key alone. */
-static void look(service *s, const cache_key *key, flight *f)
+/* As solve_flight, for a request that gives only the key. */
+static void look_up(service *s, const cache_key *key, flight *f)
 {
     entry *e = find_stored(s, key);
     if (e) {
@@ -118,7 +119,7 @@ static void task_work(job *j)
     if (t->asking)
         solve_flight(t->service, t->asking, &t->key, t->flight, t->given_us);
     else
-        look(t->service, &t->key, t->flight);
+        look_up(t->service, &t->key, t->flight);
     evaluation_free(t->asking);
     free(t);
 }
@@ -136,7 +137,7 @@ static void wake(waiter *w, entry *outcome)
 {
     connection *p = connection_of(w);
     p->request->outcome = outcome;
-    /* Whoever comes second to the handover resumes. */
+    /* The thread that comes second to the handover resumes. */
     if (atomic_exchange(&p->request->handover, HANDOVER_DONE) == HANDOVER_SUSPENDED)
         MHD_resume_connection(p->mhd);
 }
@@ -205,7 +206,7 @@ static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *
     return MHD_YES;
 }
 
-/* Hands the flight to the thread_pool; takes over `a` (NULL: only look for it in the store). */
+/* Queues the flight for a worker; takes over `a` (NULL: only look it up in the store). */
 static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key *key,
                                    flight *f)
 {
@@ -236,7 +237,7 @@ static bool wants_events(const request *r)
     return r->method == METHOD_POST && r->accept && strstr(r->accept, "text/event-stream");
 }
 
-/* A stored answer. */
+/* Sends a stored answer. */
 static enum MHD_Result reply_hit(connection *p, entry *hit)
 {
     if (!wants_events(p->request))
@@ -282,7 +283,7 @@ static enum MHD_Result solve(connection *p, evaluation *a)
     }
 }
 
-/* Takes over `a`; NULL: it was refused, `why` says why. */
+/* Takes over `a`; NULL: the request was refused, and `why` says why. */
 static enum MHD_Result solve_read(connection *p, evaluation *a, double began_us, problem *why)
 {
     p->request->read_us = clock_us() - began_us;
@@ -299,14 +300,14 @@ static enum MHD_Result solve_by_query(connection *p)
     query_string q;
     q.count = 0;
     q.too_many = false;
-    q.bytes = &r->canonical; /* its own turn comes later */
+    q.bytes = &r->canonical; /* free until the canonical form is written */
     q.bytes->size = 0;
     MHD_get_connection_values(p->mhd, MHD_GET_ARGUMENT_KIND, add_pair, &q);
     if (q.too_many)
         return reply_refusal(p, 400, "more than %d parameters", QUERY_PAIRS_MAX);
     if (q.bytes->failed)
         return reply_entry(p, NULL, REPLY_HIT);
-    /* Another owner than of bodies: a query's bytes may be some body's. */
+    /* Keyed apart from bodies: a body may have the same bytes as a query. */
     cache_key_of_body(p->service->cache, &e->query, q.bytes->data, q.bytes->size,
                       &r->waiter.raw);
     entry *hit = cache_find(p->service->cache, CACHE_RAW, &r->waiter.raw);
@@ -334,7 +335,7 @@ static enum MHD_Result solve_by_body(connection *p)
     return solve_read(p, a, began, &why);
 }
 
-/* What was waited for is there. */
+/* Returns whether the request had been waiting; it then has its answer. */
 static bool has_waited(connection *p)
 {
     if (atomic_load_explicit(&p->phase, memory_order_relaxed) != CONNECTION_WAITING)
@@ -351,8 +352,8 @@ enum MHD_Result handle_endpoint(connection *p)
     return has_body ? solve_by_body(p) : solve_by_query(p);
 }
 
-/* A worker looks in the store. In a flight of its own: who asks the question waits for more
- * than to hear that no answer is there. */
+/* Has a worker look in the store, in a flight of its own: a request with the question itself
+ * must not get the 404 of this one. */
 static enum MHD_Result find_in_store(connection *p, const cache_key *key)
 {
     request *r = p->request;
