@@ -5,15 +5,15 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
-#include "http/transport/log.h"
-#include "http/transport/server.h"
+#include "http/api/api.h"
+#include "http/service/log.h"
 #include "http/service/settings.h"
 
 extern char **environ;
 
 static int serve(const settings *set)
 {
-    server s;
+    api daemon;
     char fault[256];
     sigset_t ends;
     sigemptyset(&ends);
@@ -25,24 +25,24 @@ static int serve(const settings *set)
     signal(SIGPIPE, SIG_IGN);
     const int signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
     bool clean = false;
-    if (server_start(&s, set, fault)) {
+    if (api_start(&daemon, set, fault)) {
         log_line line;
         json_writer *json = log_open(&line, "info", "listening");
-        json_put_string(json, "address", s.at.name);
-        json_put_integer(json, "port", s.at.port);
+        json_put_string(json, "address", daemon.server.at.name);
+        json_put_integer(json, "port", daemon.server.at.port);
         json_put_string(json, "version", STRUM_DAEMON_VERSION);
         log_close(&line);
-        clean = server_run(&s, signals);
+        clean = server_run(&daemon.server, signals);
         log_say(clean ? "info" : "warning", "stopped", "%s",
                 clean ? "all requests were finished" : "requests were cut short");
         /* Nobody waits for what a worker still solves, and it may take long: the process ends
          * with it instead of waiting for it to be freed. */
-        if (!clean && server_solving(&s))
+        if (!clean && service_solving(&daemon.service))
             _exit(1);
     } else {
         log_say("error", "start", "%s", fault);
     }
-    server_free(&s);
+    api_free(&daemon);
     close(signals);
     return clean ? 0 : 1;
 }
@@ -58,6 +58,8 @@ int main(int argc, char *argv[])
         code = 2;
     } else if (action == SETTINGS_HELP) {
         settings_help(stdout);
+    } else if (action == SETTINGS_MAN) {
+        settings_man(STRUM_DAEMON_VERSION, stdout);
     } else if (action == SETTINGS_VERSION) {
         puts("strumd " STRUM_DAEMON_VERSION);
     } else if (action == SETTINGS_PRINT) {

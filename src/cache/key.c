@@ -5,6 +5,8 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "json/hex.h"
+
 /* A context for each thread, kept: making one costs more than hashing a short body. */
 static pthread_once_t digest_once = PTHREAD_ONCE_INIT;
 static pthread_key_t digest_of_thread;
@@ -71,22 +73,12 @@ void key_hex(const cache_key *key, char hex[KEY_HEX_SIZE])
     hex[KEY_HEX_SIZE - 1] = '\0';
 }
 
-static int digit_value(char c)
-{
-    if (c >= '0' && c <= '9')
-        return c - '0';
-    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-}
-
 bool key_parse(const char *hex, cache_key *key)
 {
-    if (strlen(hex) != KEY_HEX_SIZE - 1)
+    /* In lower case only: an answer has one address. */
+    if (strlen(hex) != KEY_HEX_SIZE - 1 || strspn(hex, "0123456789abcdef") != KEY_HEX_SIZE - 1)
         return false;
-    for (size_t i = 0; i < sizeof key->bytes; i++) {
-        const int high = digit_value(hex[2 * i]), low = digit_value(hex[2 * i + 1]);
-        if (high < 0 || low < 0)
-            return false;
-        key->bytes[i] = (unsigned char)(high << 4 | low);
-    }
+    for (size_t i = 0; i < sizeof key->bytes; i++)
+        key->bytes[i] = (unsigned char)(hex_digit(hex[2 * i]) << 4 | hex_digit(hex[2 * i + 1]));
     return true;
 }

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "json/hex.h"
 #include "json/utf8.h"
 
 typedef struct scan {
@@ -88,13 +89,10 @@ static int code_unit(const scan *s)
         return -1;
     int unit = 0;
     for (int i = 2; i < 6; i++) {
-        const char c = s->at[i];
-        if (c >= '0' && c <= '9')
-            unit = 16 * unit + (c - '0');
-        else if ((c | 0x20) >= 'a' && (c | 0x20) <= 'f')
-            unit = 16 * unit + ((c | 0x20) - 'a') + 10;
-        else
+        const int digit = hex_digit(s->at[i]);
+        if (digit < 0)
             return -1;
+        unit = 16 * unit + digit;
     }
     return unit;
 }

@@ -50,6 +50,21 @@ def test_help_and_version():
     assert run("--version").stdout.startswith("strumd 0.")
 
 
+def test_the_manual_page_has_every_setting():
+    page = run("--help-man").stdout
+    assert page.startswith(".TH STRUMD 8 ")
+    keys = [line.split(" = ")[0] for line in run("--print-config").stdout.splitlines()]
+    assert len(keys) > 25
+    for key in keys:
+        flag = ("--" + key.replace("_", "-")).replace("-", r"\-")
+        assert f"\n.TP\n.B {flag}\n(" in page, key
+    # What each is for is the same text as in --help.
+    helps = [line.strip() for line in run("--help").stdout.split("settings (default; range):\n")[1].splitlines()[1::2]]
+    assert len(helps) == len(keys)
+    for text in helps:
+        assert "\n.br\n" + text.replace("-", r"\-") + "\n" in page
+
+
 def test_other_machines_are_kept_out_unless_meant(start_strumd):
     for where in ("0.0.0.0:0", "[::]:0"):
         refused = run("--listen", where)

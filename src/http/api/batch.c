@@ -6,26 +6,24 @@
 #include <string.h>
 
 #include "http/api/solve_handler.h"
-#include "http/transport/clock.h"
+#include "http/service/clock.h"
 #include "http/api/batch_reader.h"
 #include "http/api/reply.h"
-#include "http/transport/server.h"
 
-/* So many items may have been begun and not been sent, or answers of so many bytes: whichever
- * is less. */
+/* Limits on items started but not yet sent: their number, and the bytes of their answers. */
 #define WINDOW       64
 #define WINDOW_BYTES (1 << 20)
-/* A worker that has been at a batch for so long goes on to what others wait for. */
+/* After this time on a batch a worker takes the next job in the queue. */
 #define TURN_US 1000
-/* Workers at one batch; never more than there are. */
+/* Maximum number of workers on one batch. */
 #define RUNNERS 16
-/* Lines are handed on when they are so many bytes together. */
+/* Lines are collected up to this many bytes before they are sent. */
 #define LINES_SIZE 16384
 
 typedef enum slot_state {
     SLOT_FREE,
     SLOT_BEGUN,   /* a worker reads it */
-    SLOT_WAITING, /* its waiter was taken by the cache */
+    SLOT_WAITING, /* its waiter is in the cache */
     SLOT_DONE
 } slot_state;
 
@@ -48,7 +46,7 @@ typedef struct runner {
 
 typedef struct batch {
     stream stream;
-    server *server;
+    service *service;
     strbuf body;
     pthread_mutex_t lock; /* of what follows */
     batch_reader items;
@@ -87,8 +85,9 @@ static void wake(waiter *w, entry *outcome)
     stream_unref(&b->stream);
 }
 
-/* {"path", "request"}: the endpoint and the request, or NULL. */
-static const endpoint *read_members(const cJSON *item, const cJSON **asked, problem *p)
+/* Reads {"path", "request"}; returns the endpoint, or NULL with the faults in `p`. */
+static const endpoint *read_members(const page *pages, const cJSON *item, const cJSON **asked,
+                                    problem *p)
 {
     const endpoint *e = NULL;
     *asked = NULL;
@@ -102,7 +101,7 @@ static const endpoint *read_members(const cJSON *item, const cJSON **asked, prob
         problem_add(p, "/path", "needed: the path of an endpoint, such as %s",
                     endpoints[0]->path);
     } else if (!(e = endpoint_find(path->valuestring))) {
-        const char *near = route_near(path->valuestring);
+        const char *near = route_near(pages, path->valuestring);
         const bool is_endpoint = near && endpoint_find(near);
         problem_add(p, "/path", "no endpoint%s%s", is_endpoint ? "; did you mean " : "",
                     is_endpoint ? near : "");
@@ -116,14 +115,14 @@ static const endpoint *read_members(const cJSON *item, const cJSON **asked, prob
 
 static evaluation *read_item(const slot *s, problem *p)
 {
-    const settings *set = s->batch->server->settings;
+    const settings *set = s->batch->service->settings;
     const json_limits limits = {.depth = (int)set->json_depth + 1,
                                 .values = (int)set->json_values + 2};
     cJSON *document;
     const cJSON *asked;
     if (!json_read(s->bytes, s->size, &limits, &document, p))
         return NULL;
-    const endpoint *e = read_members(document, &asked, p);
+    const endpoint *e = read_members(s->batch->service->pages, document, &asked, p);
     evaluation *a = NULL;
     if (e) {
         a = evaluation_read_item(e, asked, p);
@@ -133,7 +132,7 @@ static evaluation *read_item(const slot *s, problem *p)
     return a;
 }
 
-/* Enters the flight; leads it when nobody else does. */
+/* Joins the flight for this answer, or leads it if there is none yet. */
 static void solve(slot *s, const evaluation *a)
 {
     batch *b = s->batch;
@@ -145,7 +144,7 @@ static void solve(slot *s, const evaluation *a)
     const size_t index = s->index;
     stream_ref(&b->stream); /* the waiter's */
     if (key_of_evaluation(a, &canonical, &key))
-        turn = cache_acquire(b->server->cache, &key, &s->waiter, &hit, &lead);
+        turn = cache_acquire(b->service->cache, &key, &s->waiter, &hit, &lead);
     strbuf_clear(&canonical);
     if (turn == ROLE_HIT || turn == ROLE_NONE) {
         finish(s, hit);
@@ -153,25 +152,25 @@ static void solve(slot *s, const evaluation *a)
         return;
     }
     pthread_mutex_lock(&b->lock);
-    /* Woken already, it may be sent, and the slot another item's. */
+    /* If it was woken already, it may be sent, and the slot may hold another item. */
     const bool waits = s->index == index && s->state == SLOT_BEGUN;
     if (waits)
         s->state = SLOT_WAITING;
-    /* Who ended the batch meanwhile did not see this one wait. */
-    const bool late = waits && b->ended && cache_release(b->server->cache, &s->waiter);
+    /* If the batch ended meanwhile, that thread did not see this item wait. */
+    const bool late = waits && b->ended && cache_release(b->service->cache, &s->waiter);
     pthread_mutex_unlock(&b->lock);
     if (late)
         stream_unref(&b->stream);
     if (turn == ROLE_LEADER)
-        solve_flight(b->server, a, &key, lead, 0);
+        solve_flight(b->service, a, &key, lead, 0);
 }
 
 static void work_item(slot *s)
 {
     batch *b = s->batch;
     s->waiter = (waiter){.on_done = wake};
-    cache_key_of_body(b->server->cache, NULL, s->bytes, s->size, &s->waiter.raw);
-    entry *hit = cache_find(b->server->cache, CACHE_RAW, &s->waiter.raw);
+    cache_key_of_body(b->service->cache, NULL, s->bytes, s->size, &s->waiter.raw);
+    entry *hit = cache_find(b->service->cache, CACHE_RAW, &s->waiter.raw);
     if (hit) {
         finish(s, hit);
         return;
@@ -194,7 +193,7 @@ static bool has_room(const batch *b)
            (b->bytes < WINDOW_BYTES || b->begun == b->sent);
 }
 
-/* The next item, or NULL: the runner has ended. */
+/* Returns the next item, or NULL: the runner then has ended. */
 static slot *begin_item(batch *b, runner *r)
 {
     slot *s = NULL;
@@ -218,14 +217,14 @@ static void run(job *j)
     for (slot *s; (s = begin_item(b, r));) {
         work_item(s);
         if (clock_us() > until) {
-            thread_pool_queue_background(b->server->thread_pool, j);
+            thread_pool_queue_background(b->service->thread_pool, j);
             return;
         }
     }
     stream_unref(&b->stream);
 }
 
-/* Under the lock: a worker for each item that may begin. */
+/* Starts a worker for each item that may begin. Under the lock. */
 static void start_runners(batch *b)
 {
     size_t left = b->total - b->begun;
@@ -236,7 +235,7 @@ static void start_runners(batch *b)
         r->running = true;
         left--;
         stream_ref(&b->stream);
-        thread_pool_queue_background(b->server->thread_pool, &r->job);
+        thread_pool_queue_background(b->service->thread_pool, &r->job);
     }
 }
 
@@ -266,7 +265,7 @@ static void write_line(size_t index, const entry *outcome, const char *given_up,
     strbuf_add(out, "\n", 1);
 }
 
-/* Nobody wants what is under way. */
+/* No client wants the items under way any more. */
 static void end(stream *st)
 {
     batch *b = (batch *)(void *)st;
@@ -275,7 +274,7 @@ static void end(stream *st)
     b->ended = true;
     for (size_t i = 0; i < WINDOW; i++)
         if (b->slots[i].state == SLOT_WAITING &&
-            cache_release(b->server->cache, &b->slots[i].waiter))
+            cache_release(b->service->cache, &b->slots[i].waiter))
             given_up++;
     pthread_mutex_unlock(&b->lock);
     while (given_up-- > 0)
@@ -307,7 +306,7 @@ static stream_turn next(stream *st)
     pthread_mutex_unlock(&b->lock);
     if (st->out.size == 0)
         return STREAM_WAIT;
-    st->wait_until_ms = clock_ms() + (int64_t)(b->server->settings->solve_timeout_s * 1000);
+    st->wait_until_ms = clock_ms() + (int64_t)(b->service->settings->solve_timeout_s * 1000);
     return STREAM_PIECE;
 }
 
@@ -326,15 +325,15 @@ static batch *batch_new(connection *p)
     batch *b = calloc(1, sizeof *b);
     if (!b)
         return NULL;
-    server *s = p->server;
+    service *s = p->service;
     b->stream.next = next;
     b->stream.end = end;
     b->stream.free = free_batch;
     stream_init(&b->stream, p);
-    b->server = s;
+    b->service = s;
     /* The items point into it, for longer than the request may last. */
-    b->body = p->request.body;
-    p->request.body = (strbuf){0};
+    b->body = p->request->body;
+    p->request->body = (strbuf){0};
     pthread_mutex_init(&b->lock, NULL);
     const size_t workers = (size_t)thread_pool_count(s->thread_pool).workers;
     b->runner_count = workers < RUNNERS ? workers : RUNNERS;
@@ -345,17 +344,17 @@ static batch *batch_new(connection *p)
 
 enum MHD_Result batch_answer(connection *p)
 {
-    const int64_t most = p->server->settings->batch_items;
+    const int64_t limit = p->service->settings->batch_items;
     batch *b = batch_new(p);
     problem why = {0};
     if (!b)
         return reply_entry(p, NULL, REPLY_HIT);
-    p->request.stream = &b->stream; /* ends with the request */
+    p->request->stream = &b->stream; /* ends with the request */
     if (!batch_reader_open(&b->items, b->body.data ? b->body.data : "", b->body.size,
-                           p->request.is_lines, &b->total, &why))
+                           p->request->is_lines, &b->total, &why))
         return reply_problem(p, &why);
-    if (b->total > (size_t)most)
+    if (b->total > (size_t)limit)
         return reply_refusal(p, 413, "%zu items; a batch has at most %lld", b->total,
-                             (long long)most);
+                             (long long)limit);
     return reply_stream(p, &b->stream, "application/x-ndjson");
 }

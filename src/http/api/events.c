@@ -7,14 +7,13 @@
 #include <stdlib.h>
 
 #include "http/api/reply.h"
-#include "http/transport/server.h"
 
 typedef struct events {
     stream stream;
     waiter waiter;
     cache *cache;
     pthread_mutex_t lock; /* of what follows */
-    progress last;        /* a slow reader gets the latest only */
+    progress last;        /* a slow client gets only the latest */
     char what[80];
     bool told, done, ended;
     entry *outcome; /* referenced; NULL when done: memory ran out */
@@ -27,7 +26,7 @@ static events *events_of(waiter *w)
 
 /* ---- what other threads say ---- */
 
-static void hear(waiter *w, const progress *so_far)
+static void on_progress(waiter *w, const progress *so_far)
 {
     events *e = events_of(w);
     pthread_mutex_lock(&e->lock);
@@ -134,20 +133,21 @@ waiter *events_open(connection *p)
     stream_init(&e->stream, p);
     stream_ref(&e->stream); /* the waiter's */
     pthread_mutex_init(&e->lock, NULL);
-    e->cache = p->server->cache;
-    e->waiter = (waiter){.raw = p->request.waiter.raw, .on_done = wake, .on_progress = hear};
-    p->request.stream = &e->stream;
+    e->cache = p->service->cache;
+    e->waiter =
+        (waiter){.raw = p->request->waiter.raw, .on_done = wake, .on_progress = on_progress};
+    p->request->stream = &e->stream;
     return &e->waiter;
 }
 
 void events_free_waiter(connection *p)
 {
-    stream_unref(p->request.stream);
+    stream_unref(p->request->stream);
 }
 
 enum MHD_Result events_reply(connection *p, entry *known)
 {
-    events *e = (events *)(void *)p->request.stream;
+    events *e = (events *)(void *)p->request->stream;
     pthread_mutex_lock(&e->lock);
     if (known) {
         e->outcome = known;
@@ -159,5 +159,5 @@ enum MHD_Result events_reply(connection *p, entry *known)
     pthread_mutex_unlock(&e->lock);
     if (refused)
         return reply_entry(p, refusal, REPLY_SOLVED);
-    return reply_stream(p, p->request.stream, "text/event-stream");
+    return reply_stream(p, p->request->stream, "text/event-stream");
 }

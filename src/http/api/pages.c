@@ -6,12 +6,11 @@
 #include <string.h>
 
 #include "http/api/assets.h"
-#include "http/transport/clock.h"
+#include "http/service/clock.h"
 #include "commit.h"
 #include "http/api/reply.h"
-#include "http/transport/server.h"
 
-/* So long the queue may be full before others are asked to send elsewhere. */
+/* After the queue has been full for this time, load balancers are told to send elsewhere. */
 #define FULL_MS 5000
 
 static enum MHD_Result say_status(connection *p, const char *status)
@@ -31,7 +30,7 @@ enum MHD_Result page_livez(connection *p)
 
 enum MHD_Result page_readyz(connection *p)
 {
-    server *s = p->server;
+    service *s = p->service;
     const int64_t full_since = thread_pool_count(s->thread_pool).full_since_ms;
     if (s->draining)
         return reply_refusal(p, 503, "shutting down");
@@ -57,15 +56,22 @@ enum MHD_Result page_version(connection *p)
 enum MHD_Result page_metrics(connection *p)
 {
     strbuf body = {0};
-    metrics_write(p->server, &body);
+    service *s = p->service;
+    metrics_snapshot now = {.cache = cache_count(s->cache),
+                            .pool = thread_pool_count(s->thread_pool),
+                            .has_store = s->store,
+                            .busy = connections_busy(p->all)};
+    if (now.has_store)
+        now.store = store_count(s->store);
+    metrics_write(s->metrics, &now, &body);
     return reply_text(p, 200, "text/plain; version=0.0.4; charset=utf-8", &body);
 }
 
 enum MHD_Result page_asset(connection *p)
 {
     for (const asset *a = assets; a->path; a++)
-        if (strcmp(a->path, p->request.url) == 0)
+        if (strcmp(a->path, p->request->url) == 0)
             return reply_asset(p, a);
-    return reply_refusal(p, 404, "nothing is at %s%s", p->request.url,
+    return reply_refusal(p, 404, "nothing is at %s%s", p->request->url,
                          assets->path ? "" : "; this strumd was built without its pages");
 }

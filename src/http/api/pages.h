@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The small pages that say how the daemon is, and the files of the dashboard. */
+/* The small pages about the state of the daemon, and the files of the dashboard. */
 #ifndef HTTP_API_PAGES_H
 #define HTTP_API_PAGES_H
 

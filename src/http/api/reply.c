@@ -8,16 +8,15 @@
 #include <string.h>
 
 #include "http/api/assets.h"
-#include "http/transport/clock.h"
-#include "http/transport/log.h"
-#include "http/transport/server.h"
+#include "http/service/clock.h"
+#include "http/service/log.h"
 
 #define JSON_TYPE    "application/json"
 #define PROBLEM_TYPE "application/problem+json"
 
 static void header(struct MHD_Response *response, const char *name, const char *value)
 {
-    /* Out of memory: an answer without one of these is still right. */
+    /* Fails without memory only; an answer without one of these headers is still right. */
     (void)MHD_add_response_header(response, name, value);
 }
 
@@ -38,13 +37,13 @@ static bool list_has(const char *list, const char *item)
 
 static bool cors_add(const connection *p, struct MHD_Response *response)
 {
-    const char *origins = p->server->settings->cors_origins;
+    const char *origins = p->service->settings->cors_origins;
     if (!*origins)
         return false;
     header(response, "Vary", "Origin");
-    if (!p->request.origin || !list_has(origins, p->request.origin))
+    if (!p->request->origin || !list_has(origins, p->request->origin))
         return false;
-    header(response, "Access-Control-Allow-Origin", p->request.origin);
+    header(response, "Access-Control-Allow-Origin", p->request->origin);
     header(response, "Access-Control-Expose-Headers",
            "ETag, Content-Location, Cache-Status, Server-Timing, X-Request-Id, traceparent, "
            "Retry-After");
@@ -55,15 +54,16 @@ static bool cors_add(const connection *p, struct MHD_Response *response)
 
 static void log_request(const connection *p, int status, size_t size)
 {
-    const request *r = &p->request;
-    const int64_t which = p->server->settings->log_requests;
+    const request *r = p->request;
+    const int64_t which = p->service->settings->log_requests;
     if (which == LOG_NONE || (which == LOG_ERRORS && (status < 500 || status == 501)) ||
         (which == LOG_REFUSALS && status < 400))
         return;
-    /* What went well may be too much to log it all. */
-    if (status < 400 && atomic_fetch_add_explicit(&p->server->logged, 1, memory_order_relaxed) %
-                                (uint64_t)p->server->settings->log_sample !=
-                            0)
+    /* There may be too many successful requests to log them all. */
+    if (status < 400 &&
+        atomic_fetch_add_explicit(&p->service->logged, 1, memory_order_relaxed) %
+                (uint64_t)p->service->settings->log_sample !=
+            0)
         return;
     log_line line;
     json_writer *json = log_open(&line, status < 500 ? "info" : "error", "request");
@@ -79,38 +79,39 @@ static void log_request(const connection *p, int status, size_t size)
 
 static void make_id(connection *p)
 {
-    if (!p->request.id[0])
-        snprintf(p->request.id, sizeof p->request.id, "%08x-%08x", p->server->id_prefix,
-                 atomic_fetch_add(&p->server->id_next, 1));
+    if (!p->request->id[0])
+        snprintf(p->request->id, sizeof p->request->id, "%08x-%08x", p->service->id_prefix,
+                 atomic_fetch_add(&p->service->id_next, 1));
 }
 
-/* Sends `response` as it is. */
+/* Sends `response` unchanged. */
 static enum MHD_Result queue(connection *p, int status, struct MHD_Response *response,
                              size_t size)
 {
-    const request *r = &p->request;
-    metrics_request(p->server->metrics, r->route.index, status, size, clock_us() - r->began_us);
-    connection_enter(p, CONNECTION_SENDING, p->server->settings->request_timeout_s);
+    const request *r = p->request;
+    metrics_request(p->service->metrics, r->route.index, status, size,
+                    clock_us() - r->began_us);
+    connection_enter(p, CONNECTION_SENDING, p->service->settings->request_timeout_s);
     return MHD_queue_response(p->mhd, (unsigned)status, response);
 }
 
-/* Completes `response` with what depends on the request, sends and drops it. */
+/* Adds the headers that depend on the request, sends the response and drops it. */
 static enum MHD_Result finish(connection *p, int status, struct MHD_Response *response,
                               size_t size)
 {
     if (!response)
-        return queue(p, 503, p->server->no_memory, 0);
+        return queue(p, 503, p->service->no_memory, 0);
     make_id(p);
-    header(response, "X-Request-Id", p->request.id);
-    if (p->request.traceparent)
-        header(response, "traceparent", p->request.traceparent);
+    header(response, "X-Request-Id", p->request->id);
+    if (p->request->traceparent)
+        header(response, "traceparent", p->request->traceparent);
     cors_add(p, response);
     if (status == 503) {
         char seconds[24];
-        snprintf(seconds, sizeof seconds, "%d", (int)p->server->settings->retry_after_s);
+        snprintf(seconds, sizeof seconds, "%d", (int)p->service->settings->retry_after_s);
         header(response, "Retry-After", seconds);
     }
-    if (p->request.close || p->server->draining)
+    if (p->request->close || p->service->draining)
         header(response, "Connection", "close");
     log_request(p, status, size);
     const enum MHD_Result result = queue(p, status, response, size);
@@ -150,8 +151,8 @@ static int prebuilt_for(const request *r)
     return r->route.endpoint ? FOR_QUESTION : FOR_KEY;
 }
 
-/* The headers of an answer that depend on nothing of the request but its address. */
-static void describe(const server *s, int address, struct MHD_Response *response,
+/* Adds the headers of an answer that depend only on the address asked. */
+static void describe(const service *s, int address, struct MHD_Response *response,
                      const entry *e)
 {
     char value[128];
@@ -172,26 +173,26 @@ static void describe(const server *s, int address, struct MHD_Response *response
     header(response, "Cache-Control", value_of[s->access != NULL][address]);
 }
 
-static void prebuilt_drop(void *face)
+static void prebuilt_drop(void *ready)
 {
-    MHD_destroy_response(face);
+    MHD_destroy_response(ready);
 }
 
-void reply_prebuild(server *s, entry *e)
+void reply_prebuild(service *s, entry *e)
 {
     e->prebuilt_drop = prebuilt_drop;
     for (int i = 0; i < ENTRY_PREBUILT; i++) {
-        struct MHD_Response *face = MHD_create_response_from_buffer_with_free_callback_cls(
+        struct MHD_Response *ready = MHD_create_response_from_buffer_with_free_callback_cls(
             e->size, e->body, release_body, e);
-        if (!face)
-            return; /* hits are then made anew each time */
+        if (!ready)
+            return; /* each hit then makes its own response */
         entry_hold_body(e);
-        header(face, "Content-Type", JSON_TYPE);
-        describe(s, i, face, e);
-        header(face, "Cache-Status", "strum; hit");
+        header(ready, "Content-Type", JSON_TYPE);
+        describe(s, i, ready, e);
+        header(ready, "Cache-Status", "strum; hit");
         if (*s->settings->cors_origins)
-            header(face, "Vary", "Origin");
-        e->prebuilt[i] = face;
+            header(ready, "Vary", "Origin");
+        e->prebuilt[i] = ready;
     }
 }
 
@@ -219,7 +220,7 @@ static void timing(const connection *p, struct MHD_Response *response, const ent
 {
     char value[128];
     snprintf(value, sizeof value, "read;dur=%.3f, queue;dur=%.3f, %s;dur=%.3f",
-             p->request.read_us / 1000, e->queue_us / 1000, e->from_store ? "store" : "solve",
+             p->request->read_us / 1000, e->queue_us / 1000, e->from_store ? "store" : "solve",
              e->solve_us / 1000);
     header(response, "Server-Timing", value);
 }
@@ -239,15 +240,15 @@ static void cache_status(struct MHD_Response *response, const entry *e, reply_so
 
 enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
 {
-    const request *r = &p->request;
+    const request *r = p->request;
     if (!e)
-        return queue(p, 503, p->server->no_memory, 0);
-    struct MHD_Response *face = source == REPLY_HIT ? e->prebuilt[prebuilt_for(r)] : NULL;
-    const bool plain = face && !r->if_none_match && !r->given_id && !r->traceparent &&
-                       !r->close && (!r->origin || !*p->server->settings->cors_origins) &&
-                       !p->server->draining && p->server->settings->log_requests != LOG_ALL;
+        return queue(p, 503, p->service->no_memory, 0);
+    struct MHD_Response *ready = source == REPLY_HIT ? e->prebuilt[prebuilt_for(r)] : NULL;
+    const bool plain = ready && !r->if_none_match && !r->given_id && !r->traceparent &&
+                       !r->close && (!r->origin || !*p->service->settings->cors_origins) &&
+                       !p->service->draining && p->service->settings->log_requests != LOG_ALL;
     if (plain) {
-        const enum MHD_Result result = queue(p, 200, face, e->size);
+        const enum MHD_Result result = queue(p, 200, ready, e->size);
         entry_unref(e);
         return result;
     }
@@ -259,12 +260,12 @@ enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
                                                                      release_entry, e);
     if (!response) {
         entry_unref(e);
-        return queue(p, 503, p->server->no_memory, 0);
+        return queue(p, 503, p->service->no_memory, 0);
     }
     if (!has)
         header(response, "Content-Type", good ? JSON_TYPE : PROBLEM_TYPE);
     if (good) {
-        describe(p->server, prebuilt_for(r), response, e);
+        describe(p->service, prebuilt_for(r), response, e);
         cache_status(response, e, source);
         if (source != REPLY_HIT)
             timing(p, response, e);
@@ -321,7 +322,7 @@ static bool takes_gzip(connection *p)
 
 enum MHD_Result reply_asset(connection *p, const asset *a)
 {
-    const bool has = already_has(p->request.if_none_match, a->hex), packed = takes_gzip(p);
+    const bool has = already_has(p->request->if_none_match, a->hex), packed = takes_gzip(p);
     const unsigned char *bytes = packed ? a->gzip : a->bytes;
     const size_t size = has ? 0 : (size_t)((packed ? a->gzip_end : a->bytes_end) - bytes);
     struct MHD_Response *response =
@@ -337,7 +338,7 @@ enum MHD_Result reply_asset(connection *p, const asset *a)
             header(response, "Content-Encoding", "gzip");
         if (!has)
             header(response, "Content-Type", a->type);
-        /* The page is what this daemon sent, asks nobody else, and is nobody's frame. */
+        /* The page loads from this daemon only, and no other page may frame it. */
         header(response, "Content-Security-Policy",
                "default-src 'none'; script-src 'self'; style-src 'self'; "
                "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; "
@@ -363,7 +364,7 @@ enum MHD_Result reply_problem(connection *p, problem *why)
             header(response, "WWW-Authenticate", "Bearer realm=\"strum\"");
         if (status == 405) {
             char allow[64];
-            method_list(p->request.route.methods, allow);
+            method_list(p->request->route.methods, allow);
             header(response, "Allow", allow);
         }
     }
@@ -392,8 +393,8 @@ enum MHD_Result reply_options(connection *p, unsigned methods)
         header(response, "Allow", list);
         if (methods & METHOD_QUERY)
             header(response, "Accept-Query", JSON_TYPE);
-        if (p->request.accept_method && p->request.origin &&
-            list_has(p->server->settings->cors_origins, p->request.origin)) {
+        if (p->request->accept_method && p->request->origin &&
+            list_has(p->service->settings->cors_origins, p->request->origin)) {
             header(response, "Access-Control-Allow-Methods", list);
             header(response, "Access-Control-Allow-Headers",
                    "Accept, Authorization, Content-Type, If-None-Match, traceparent, "

@@ -4,13 +4,13 @@
 #ifndef HTTP_API_REPLY_H
 #define HTTP_API_REPLY_H
 
-#include "http/transport/connections.h"
+#include "http/api/request.h"
 
 struct asset;
 
 typedef enum reply_source { REPLY_HIT, REPLY_SOLVED, REPLY_COLLAPSED } reply_source;
 
-/* An answer or refusal that may be shared; takes over the caller's reference. */
+/* Sends an answer or refusal that may be shared; takes over the caller's reference. */
 enum MHD_Result reply_entry(struct connection *p, entry *e, reply_source source);
 /* Takes over the bytes of `body`. */
 enum MHD_Result reply_text(struct connection *p, int status, const char *type, strbuf *body);
@@ -18,17 +18,17 @@ enum MHD_Result reply_text(struct connection *p, int status, const char *type, s
 enum MHD_Result reply_problem(struct connection *p, problem *why);
 enum MHD_Result reply_refusal(struct connection *p, int status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* What comes in pieces. */
+/* Sends an answer that comes in pieces. */
 enum MHD_Result reply_stream(struct connection *p, stream *s, const char *type);
-/* A file of the page. */
+/* Sends a file of the dashboard. */
 enum MHD_Result reply_asset(struct connection *p, const struct asset *a);
-/* OPTIONS: what the route allows, and what pages of other origins may do. */
+/* Answers OPTIONS: the methods allowed, and what pages of other origins may do. */
 enum MHD_Result reply_options(struct connection *p, unsigned methods);
 
-/* Makes an answer's prebuilt: responses that are sent as they are for every plain hit. */
-void reply_prebuild(struct server *s, entry *e);
+/* Makes an answer's prebuilt responses, which are sent unchanged for every plain hit. */
+void reply_prebuild(service *s, entry *e);
 
-/* What is sent when nothing else can be made: 503, out of memory. */
+/* Returns the response sent when no other can be made (503, out of memory), or NULL. */
 struct MHD_Response *reply_no_memory(void);
 
 #endif

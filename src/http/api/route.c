@@ -3,32 +3,6 @@
 
 #include <string.h>
 
-#include "http/api/solve_handler.h"
-#include "http/api/batch.h"
-#include "http/api/pages.h"
-
-#define READ (METHOD_GET | METHOD_HEAD)
-
-/* A path that ends in "/" stands for all below it, and `rest` says what; "/" is itself only. */
-static const struct {
-    const char *path, *rest;
-    enum MHD_Result (*serve)(struct connection *p);
-    unsigned methods; /* beside OPTIONS */
-} pages[] = {
-    {"/v1/batch", "", batch_answer, METHOD_POST},
-    {"/v1/results/", "{key}", handle_result, READ},
-    {"/livez", "", page_livez, READ},
-    {"/readyz", "", page_readyz, READ},
-    {"/version", "", page_version, READ},
-    {"/metrics", "", page_metrics, READ},
-    {"/", "", page_asset, READ},
-    {"/docs", "", page_asset, READ},
-    {"/openapi.json", "", page_asset, READ},
-    {"/docs/", "{endpoint}", page_asset, READ},
-    {"/assets/", "{file}", page_asset, READ},
-};
-#define PAGES (sizeof pages / sizeof *pages)
-
 static const struct {
     const char *verb;
     method method;
@@ -59,63 +33,76 @@ void method_list(unsigned allowed, char list[64])
     }
 }
 
-route route_find(const char *url)
+static size_t page_count(const page *pages)
 {
-    const endpoint *e = endpoint_find(url);
-    if (e) {
-        size_t index = PAGES;
-        while (endpoints[index - PAGES] != e)
-            index++;
-        return (route){.path = e->path,
-                       .methods = METHOD_POST | METHOD_QUERY | METHOD_OPTIONS |
-                                  (e->query ? METHOD_GET | METHOD_HEAD : 0u),
-                       .endpoint = e,
-                       .index = index,
-                       .serve = handle_endpoint};
-    }
-    for (size_t i = 0; i < PAGES; i++) {
-        const size_t size = strlen(pages[i].path);
-        const bool below = pages[i].path[size - 1] == '/' && size > 1;
-        if (below ? strncmp(url, pages[i].path, size) == 0 : strcmp(url, pages[i].path) == 0)
-            return (route){.path = pages[i].path,
-                           .methods = METHOD_OPTIONS | pages[i].methods,
-                           .rest = url + size,
-                           .open =
-                               pages[i].serve == page_livez || pages[i].serve == page_readyz,
-                           .batch = pages[i].serve == batch_answer,
-                           .index = i,
-                           .serve = pages[i].serve};
-    }
-    return (route){.path = "other", .index = route_count() - 1};
+    size_t count = 0;
+    while (pages[count].path)
+        count++;
+    return count;
 }
 
-size_t route_count(void)
+static route route_of_endpoint(const page *pages, const endpoint *e)
 {
-    size_t count = PAGES + 1;
+    const size_t count = page_count(pages);
+    size_t index = 0;
+    while (endpoints[index] != e)
+        index++;
+    return (route){.path = e->path,
+                   .methods = METHOD_POST | METHOD_QUERY | METHOD_OPTIONS |
+                              (e->query ? METHOD_GET | METHOD_HEAD : 0u),
+                   .endpoint = e,
+                   .index = count + index,
+                   .serve = pages[count].serve};
+}
+
+route route_find(const page *pages, const char *url)
+{
+    const endpoint *e = endpoint_find(url);
+    if (e)
+        return route_of_endpoint(pages, e);
+    for (const page *at = pages; at->path; at++) {
+        const size_t size = strlen(at->path);
+        if (at->rest ? strncmp(url, at->path, size) == 0 : strcmp(url, at->path) == 0)
+            return (route){.path = at->path,
+                           .methods = METHOD_OPTIONS | at->methods,
+                           .rest = url + size,
+                           .open = at->open,
+                           .batch = at->batch,
+                           .index = (size_t)(at - pages),
+                           .serve = at->serve};
+    }
+    return (route){.path = "other", .index = route_count(pages) - 1};
+}
+
+size_t route_count(const page *pages)
+{
+    size_t count = page_count(pages) + 1;
     for (const endpoint *const *e = endpoints; *e; e++)
         count++;
     return count;
 }
 
-const char *route_path(size_t index)
+const char *route_path(const page *pages, size_t index)
 {
-    if (index < PAGES)
+    const size_t count = page_count(pages);
+    if (index < count)
         return pages[index].path;
-    return index < route_count() - 1 ? endpoints[index - PAGES]->path : "other";
+    return index < route_count(pages) - 1 ? endpoints[index - count]->path : "other";
 }
 
-const char *route_near(const char *url)
+const char *route_near(const page *pages, const char *url)
 {
     nearest near = {.wanted = url};
-    for (size_t i = 0; i < route_count() - 1; i++)
-        nearest_try(&near, route_path(i));
+    for (size_t i = 0; i < route_count(pages) - 1; i++)
+        nearest_try(&near, route_path(pages, i));
     return near.name;
 }
 
-void route_list(strbuf *out)
+void route_list(const page *pages, strbuf *out)
 {
-    for (size_t i = 0; i < route_count() - 1; i++) {
-        strbuf_format(out, "%s%s%s", i ? ", " : "", route_path(i),
-                      i < PAGES ? pages[i].rest : "");
+    const size_t count = page_count(pages);
+    for (size_t i = 0; i < route_count(pages) - 1; i++) {
+        const char *rest = i < count ? pages[i].rest : NULL;
+        strbuf_format(out, "%s%s%s", i ? ", " : "", route_path(pages, i), rest ? rest : "");
     }
 }

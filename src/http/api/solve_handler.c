@@ -4,16 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "http/transport/clock.h"
+#include "http/service/clock.h"
 #include "http/api/events.h"
 #include "http/api/reply.h"
-#include "http/transport/server.h"
 
-/* A flight that a worker shall solve, or only look for in the shared store. */
+/* A flight for a worker to solve, or only to look up in the shared store. */
 typedef struct task {
     job job;
-    server *server;
-    evaluation *asking; /* owned; NULL: only look */
+    service *service;
+    evaluation *asking; /* owned; NULL: only look it up */
     cache_key key;
     flight *flight;
     double given_us;
@@ -37,34 +36,34 @@ static entry *unavailable(const cache_key *key, const char *detail)
     return e;
 }
 
-/* Who looks on is told so often at most. */
-#define TELL_MS 250
+/* Minimum time between two reports of progress. */
+#define PROGRESS_MS 250
 
-typedef struct telling {
+typedef struct progress_report {
     observer observer;
     cache *cache;
     flight *flight;
-    int64_t told_ms, steps;
-} telling;
+    int64_t sent_ms, steps;
+} progress_report;
 
-static void tell(observer *w, const progress *so_far)
+static void report_progress(observer *w, const progress *so_far)
 {
-    telling *t = (telling *)(void *)w;
+    progress_report *t = (progress_report *)(void *)w;
     t->steps = so_far->evaluations;
     const int64_t now = clock_ms();
-    if (t->told_ms && now - t->told_ms < TELL_MS)
+    if (t->sent_ms && now - t->sent_ms < PROGRESS_MS)
         return;
-    t->told_ms = now;
+    t->sent_ms = now;
     cache_publish_progress(t->cache, t->flight, so_far);
 }
 
-/* What takes longer than this goes to a worker, and may be in the shared store. */
-static bool is_costly(const server *s, const evaluation *a)
+/* A costly request goes to a worker, and its answer may be in the shared store. */
+static bool is_costly(const service *s, const evaluation *a)
 {
     return evaluation_cost_us(a) >= s->settings->inline_us;
 }
 
-static entry *find_stored(server *s, const cache_key *key)
+static entry *find_stored(service *s, const cache_key *key)
 {
     const double began = clock_us();
     entry *e = store_find(s->store, key);
@@ -73,12 +72,13 @@ static entry *find_stored(server *s, const cache_key *key)
     return e;
 }
 
-void solve_flight(server *s, const evaluation *a, const cache_key *key, flight *f,
+void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
                   double given_us)
 {
     const double queue_us = given_us > 0 ? clock_us() - given_us : 0;
-    telling t = {
-        {.cancel = flight_cancel(f), .progress = tell}, .cache = s->cache, .flight = f};
+    progress_report t = {{.cancel = flight_cancel(f), .progress = report_progress},
+                         .cache = s->cache,
+                         .flight = f};
     const bool share = is_costly(s, a);
     entry *e = share && !*t.observer.cancel ? find_stored(s, key) : NULL;
     if (!e) {
@@ -97,8 +97,8 @@ void solve_flight(server *s, const evaluation *a, const cache_key *key, flight *
     entry_unref(e);
 }
 
-/* As solve_flight, for who asks by the key alone. */
-static void look(server *s, const cache_key *key, flight *f)
+/* As solve_flight, for a request that gives only the key. */
+static void look_up(service *s, const cache_key *key, flight *f)
 {
     entry *e = find_stored(s, key);
     if (e) {
@@ -117,9 +117,9 @@ static void task_work(job *j)
 {
     task *t = (task *)(void *)j;
     if (t->asking)
-        solve_flight(t->server, t->asking, &t->key, t->flight, t->given_us);
+        solve_flight(t->service, t->asking, &t->key, t->flight, t->given_us);
     else
-        look(t->server, &t->key, t->flight);
+        look_up(t->service, &t->key, t->flight);
     evaluation_free(t->asking);
     free(t);
 }
@@ -130,38 +130,36 @@ enum { HANDOVER_NONE, HANDOVER_SUSPENDED, HANDOVER_DONE };
 
 static connection *connection_of(waiter *w)
 {
-    return (connection *)(void *)((char *)w - offsetof(connection, request.waiter));
+    return ((request *)(void *)((char *)w - offsetof(request, waiter)))->connection;
 }
 
 static void wake(waiter *w, entry *outcome)
 {
     connection *p = connection_of(w);
-    p->request.outcome = outcome;
-    /* Whoever comes second to the handover resumes. */
-    if (atomic_exchange(&p->request.handover, HANDOVER_DONE) == HANDOVER_SUSPENDED)
+    p->request->outcome = outcome;
+    /* The thread that comes second to the handover resumes. */
+    if (atomic_exchange(&p->request->handover, HANDOVER_DONE) == HANDOVER_SUSPENDED)
         MHD_resume_connection(p->mhd);
 }
 
 static enum MHD_Result suspend(connection *p)
 {
     MHD_suspend_connection(p->mhd);
-    connection_enter(p, CONNECTION_WAITING, p->server->settings->solve_timeout_s);
-    /* Either this sees that the daemon stops, or the daemon sees who waits. */
-    if (p->server->stopping)
-        solve_give_up(p, "the daemon is shutting down");
-    if (atomic_exchange(&p->request.handover, HANDOVER_SUSPENDED) == HANDOVER_DONE)
+    connection_enter(p, CONNECTION_WAITING, p->service->settings->solve_timeout_s);
+    connection_end_if_stopping(p);
+    if (atomic_exchange(&p->request->handover, HANDOVER_SUSPENDED) == HANDOVER_DONE)
         MHD_resume_connection(p->mhd);
     return MHD_YES;
 }
 
 void solve_give_up(connection *p, const char *why)
 {
-    if (p->request.stream) {
-        stream_give_up(p->request.stream, why);
+    if (p->request->stream) {
+        stream_give_up(p->request->stream, why);
         return;
     }
-    waiter *w = &p->request.waiter;
-    if (!cache_release(p->server->cache, w))
+    waiter *w = &p->request->waiter;
+    if (!cache_release(p->service->cache, w))
         return;
     static const cache_key none = {{0}};
     w->on_done(w, unavailable(&none, why));
@@ -169,7 +167,7 @@ void solve_give_up(connection *p, const char *why)
 
 static enum MHD_Result reply_outcome(connection *p)
 {
-    request *r = &p->request;
+    request *r = p->request;
     entry *e = r->outcome;
     if (r->stream)
         return events_reply(p, NULL);
@@ -179,7 +177,7 @@ static enum MHD_Result reply_outcome(connection *p)
 
 static enum MHD_Result wait_outcome(connection *p)
 {
-    return p->request.stream ? events_reply(p, NULL) : suspend(p);
+    return p->request->stream ? events_reply(p, NULL) : suspend(p);
 }
 
 /* ---- the steps ---- */
@@ -208,11 +206,11 @@ static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *
     return MHD_YES;
 }
 
-/* Hands the flight to the thread_pool; takes over `a` (NULL: only look for it in the store). */
+/* Queues the flight for a worker; takes over `a` (NULL: only look it up in the store). */
 static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key *key,
                                    flight *f)
 {
-    server *s = p->server;
+    service *s = p->service;
     task *t = calloc(1, sizeof *t);
     const bool room = t && thread_pool_reserve(s->thread_pool);
     if (!room) {
@@ -224,7 +222,7 @@ static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key
         return reply_outcome(p);
     }
     *t = (task){.job.work = task_work,
-                .server = s,
+                .service = s,
                 .asking = a,
                 .key = *key,
                 .flight = f,
@@ -239,12 +237,12 @@ static bool wants_events(const request *r)
     return r->method == METHOD_POST && r->accept && strstr(r->accept, "text/event-stream");
 }
 
-/* A stored answer. */
+/* Sends a stored answer. */
 static enum MHD_Result reply_hit(connection *p, entry *hit)
 {
-    if (!wants_events(&p->request))
+    if (!wants_events(p->request))
         return reply_entry(p, hit, REPLY_HIT);
-    if (p->request.stream || events_open(p)) {
+    if (p->request->stream || events_open(p)) {
         events_free_waiter(p);
         return events_reply(p, hit);
     }
@@ -254,8 +252,8 @@ static enum MHD_Result reply_hit(connection *p, entry *hit)
 
 static enum MHD_Result solve(connection *p, evaluation *a)
 {
-    server *s = p->server;
-    request *r = &p->request;
+    service *s = p->service;
+    request *r = p->request;
     cache_key key;
     entry *hit = NULL;
     flight *lead = NULL;
@@ -285,10 +283,10 @@ static enum MHD_Result solve(connection *p, evaluation *a)
     }
 }
 
-/* Takes over `a`; NULL: it was refused, `why` says why. */
+/* Takes over `a`; NULL: the request was refused, and `why` says why. */
 static enum MHD_Result solve_read(connection *p, evaluation *a, double began_us, problem *why)
 {
-    p->request.read_us = clock_us() - began_us;
+    p->request->read_us = clock_us() - began_us;
     if (!a)
         return reply_problem(p, why);
     problem_clear(why);
@@ -297,22 +295,22 @@ static enum MHD_Result solve_read(connection *p, evaluation *a, double began_us,
 
 static enum MHD_Result solve_by_query(connection *p)
 {
-    request *r = &p->request;
+    request *r = p->request;
     const endpoint *e = r->route.endpoint;
     query_string q;
     q.count = 0;
     q.too_many = false;
-    q.bytes = &r->canonical; /* its own turn comes later */
+    q.bytes = &r->canonical; /* free until the canonical form is written */
     q.bytes->size = 0;
     MHD_get_connection_values(p->mhd, MHD_GET_ARGUMENT_KIND, add_pair, &q);
     if (q.too_many)
         return reply_refusal(p, 400, "more than %d parameters", QUERY_PAIRS_MAX);
     if (q.bytes->failed)
         return reply_entry(p, NULL, REPLY_HIT);
-    /* Another owner than of bodies: a query's bytes may be some body's. */
-    cache_key_of_body(p->server->cache, &e->query, q.bytes->data, q.bytes->size,
+    /* Keyed apart from bodies: a body may have the same bytes as a query. */
+    cache_key_of_body(p->service->cache, &e->query, q.bytes->data, q.bytes->size,
                       &r->waiter.raw);
-    entry *hit = cache_find(p->server->cache, CACHE_RAW, &r->waiter.raw);
+    entry *hit = cache_find(p->service->cache, CACHE_RAW, &r->waiter.raw);
     if (hit)
         return reply_entry(p, hit, REPLY_HIT);
     const double began = clock_us();
@@ -322,11 +320,11 @@ static enum MHD_Result solve_by_query(connection *p)
 
 static enum MHD_Result solve_by_body(connection *p)
 {
-    request *r = &p->request;
-    const settings *set = p->server->settings;
-    cache_key_of_body(p->server->cache, r->route.endpoint, r->body.data, r->body.size,
+    request *r = p->request;
+    const settings *set = p->service->settings;
+    cache_key_of_body(p->service->cache, r->route.endpoint, r->body.data, r->body.size,
                       &r->waiter.raw);
-    entry *hit = cache_find(p->server->cache, CACHE_RAW, &r->waiter.raw);
+    entry *hit = cache_find(p->service->cache, CACHE_RAW, &r->waiter.raw);
     if (hit)
         return reply_hit(p, hit);
     const double began = clock_us();
@@ -337,12 +335,12 @@ static enum MHD_Result solve_by_body(connection *p)
     return solve_read(p, a, began, &why);
 }
 
-/* What was waited for is there. */
+/* Returns whether the request had been waiting; it then has its answer. */
 static bool has_waited(connection *p)
 {
     if (atomic_load_explicit(&p->phase, memory_order_relaxed) != CONNECTION_WAITING)
         return false;
-    connection_enter(p, CONNECTION_READING, p->server->settings->request_timeout_s);
+    connection_enter(p, CONNECTION_READING, p->service->settings->request_timeout_s);
     return true;
 }
 
@@ -350,15 +348,15 @@ enum MHD_Result handle_endpoint(connection *p)
 {
     if (has_waited(p))
         return reply_outcome(p);
-    const bool has_body = p->request.method & (METHOD_POST | METHOD_QUERY);
+    const bool has_body = p->request->method & (METHOD_POST | METHOD_QUERY);
     return has_body ? solve_by_body(p) : solve_by_query(p);
 }
 
-/* A worker looks in the store. In a flight of its own: who asks the question waits for more
- * than to hear that no answer is there. */
+/* Has a worker look in the store, in a flight of its own: a request with the question itself
+ * must not get the 404 of this one. */
 static enum MHD_Result find_in_store(connection *p, const cache_key *key)
 {
-    request *r = &p->request;
+    request *r = p->request;
     static const char path[] = "/v1/results/";
     const key_part parts[] = {{path, sizeof path}, {key, sizeof *key}};
     entry *hit = NULL;
@@ -367,7 +365,7 @@ static enum MHD_Result find_in_store(connection *p, const cache_key *key)
     r->waiter.on_done = wake;
     atomic_store(&r->handover, HANDOVER_NONE);
     if (key_of_parts(parts, 2, &r->waiter.raw))
-        turn = cache_acquire(p->server->cache, &r->waiter.raw, &r->waiter, &hit, &lead);
+        turn = cache_acquire(p->service->cache, &r->waiter.raw, &r->waiter, &hit, &lead);
     if (turn == ROLE_LEADER)
         return queue_solve(p, NULL, key, lead);
     r->collapsed = turn == ROLE_FOLLOWER;
@@ -379,10 +377,10 @@ enum MHD_Result handle_result(connection *p)
     cache_key key;
     if (has_waited(p))
         return reply_outcome(p);
-    if (!key_parse(p->request.route.rest, &key))
+    if (!key_parse(p->request->route.rest, &key))
         return reply_refusal(p, 400, "a key is 64 hexadecimal digits in lower case");
-    entry *e = cache_find(p->server->cache, CACHE_CANONICAL, &key);
-    if (!e && p->server->store)
+    entry *e = cache_find(p->service->cache, CACHE_CANONICAL, &key);
+    if (!e && p->service->store)
         return find_in_store(p, &key);
     return e ? reply_entry(p, e, REPLY_HIT) : reply_refusal(p, 404, NOT_STORED);
 }

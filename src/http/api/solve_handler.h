@@ -1,23 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * From a question to its answer: known by its bytes -> sent as it is; otherwise read, checked,
- * known by its key -> sent; being solved -> waited for; cheap -> solved here; else by a worker.
+ * From a request to its answer:
+ *
+ *   1. its raw bytes are in the cache: send the stored answer;
+ *   2. parse and validate it;
+ *   3. its canonical key is in the cache: send the stored answer;
+ *   4. an equal request is being solved: wait for its answer;
+ *   5. it is cheap: solve it on this thread;
+ *   6. otherwise queue it for a worker.
  */
 #ifndef HTTP_API_SOLVE_HANDLER_H
 #define HTTP_API_SOLVE_HANDLER_H
 
-#include "http/transport/connections.h"
+#include "http/api/request.h"
 
 enum MHD_Result handle_endpoint(struct connection *p); /* called again when it was suspended */
 enum MHD_Result handle_result(struct connection *p);   /* GET /v1/results/{key} */
-/* A peer in CONNECTION_WAITING waits no longer: 503, because of `why`. Under the lock of connections. */
+/* Answers a connection in CONNECTION_WAITING with 503 now, because of `why`. On the event thread,
+ * or on another under the lock of connections. */
 void solve_give_up(struct connection *p, const char *why);
 
-/* Solves, lands the flight and tells all who wait. `given_us`: when it was given to the thread_pool
- * (clock_us), or 0. */
-void solve_flight(struct server *s, const evaluation *a, const cache_key *key, flight *f,
+/* Solves, completes the flight and wakes all requests that wait for it. `given_us`: when it was
+ * queued (clock_us), or 0. */
+void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
                   double given_us);
-/* A refusal as an entry, for all who wait for the same answer. NULL when memory ran out. */
+/* Returns a refusal as an entry, for all requests that wait for the same answer; NULL when memory
+ * ran out. */
 entry *refusal_entry(const cache_key *key, const problem *why);
 
 #endif

@@ -10,9 +10,9 @@
 
 #include "cache/key.h"
 
-/* A shorter one could be guessed: these are 96 bits in base64. */
+/* A shorter token could be guessed: 16 characters of base64 are 96 bits. */
 #define TOKEN_MIN 16
-/* Every one of them is compared with at each request. */
+/* Each request is compared with all of them. */
 #define TOKENS_MAX 1024
 
 struct access_list {
@@ -78,7 +78,7 @@ bool access_allows(const access_list *a, const char *authorization)
     const char *token = authorization + 7 + strspn(authorization + 7, " ");
     if (!digest_of(token, &given))
         return false;
-    /* All of them, and each whole: the time says nothing of how near a guess was. */
+    /* Compares with all tokens, each completely: the time reveals nothing about a guess. */
     bool found = false;
     for (size_t i = 0; i < a->count; i++)
         found |= CRYPTO_memcmp(&a->digests[i], &given, sizeof given) == 0;

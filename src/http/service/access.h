@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Who may ask: bearer tokens (RFC 6750) from a file, one a line. Only their digests are kept.
- */
+/* Which clients may ask: bearer tokens (RFC 6750) from a file, one a line. Only their digests
+ * are kept. */
 #ifndef HTTP_SERVICE_ACCESS_H
 #define HTTP_SERVICE_ACCESS_H
 
@@ -8,10 +8,11 @@
 
 typedef struct access_list access_list;
 
-/* Lines that are empty or begin with # are skipped. NULL with a sentence in `fault`. */
+/* Skips lines that are empty or begin with #. Returns NULL with a sentence in `fault`. */
 access_list *access_read(const char *path, char fault[256]);
 void access_free(access_list *a);
-/* By the value of Authorization (NULL: there was none). NULL `a`: everybody may. */
+/* Decides by the value of Authorization (NULL: there was none). Without a list (NULL `a`) every
+ * client may ask. */
 bool access_allows(const access_list *a, const char *authorization);
 
 #endif

@@ -2,11 +2,11 @@
 #include "http/service/metrics.h"
 
 #include <inttypes.h>
+#include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include <strum/version.h>
-
-#include "http/transport/server.h"
 
 /* The statuses this daemon answers with; the last row counts any other. */
 static const int statuses[] = {200, 204, 304, 400, 401, 404, 405,
@@ -24,13 +24,20 @@ typedef struct route_metrics {
 } route_metrics;
 
 struct metrics {
+    const char *(*path)(size_t index);
+    size_t count;
     atomic_uint_fast64_t bytes, solve_us, solve_steps, solve_failures;
     route_metrics routes[];
 };
 
-metrics *metrics_new(void)
+metrics *metrics_new(size_t routes, const char *(*path)(size_t index))
 {
-    return calloc(1, sizeof(metrics) + route_count() * sizeof(route_metrics));
+    metrics *m = calloc(1, sizeof *m + routes * sizeof *m->routes);
+    if (!m)
+        return NULL;
+    m->path = path;
+    m->count = routes;
+    return m;
 }
 
 void metrics_free(metrics *m)
@@ -75,7 +82,7 @@ static void write_requests(const metrics *m, strbuf *out)
 {
     strbuf_add_string(out, "# HELP strum_requests_total Answers sent, by route and status.\n"
                            "# TYPE strum_requests_total counter\n");
-    for (size_t index = 0; index < route_count(); index++) {
+    for (size_t index = 0; index < m->count; index++) {
         for (size_t i = 0; i < STATUSES; i++) {
             const uint64_t count = m->routes[index].requests[i];
             char status[16] = "other";
@@ -84,7 +91,7 @@ static void write_requests(const metrics *m, strbuf *out)
             if (count)
                 strbuf_format(out,
                               "strum_requests_total{route=\"%s\",status=\"%s\"} %" PRIu64 "\n",
-                              route_path(index), status, count);
+                              m->path(index), status, count);
         }
     }
 }
@@ -100,9 +107,9 @@ static void write_latency(const metrics *m, strbuf *out)
     strbuf_add_string(out,
                       "# HELP strum_request_seconds Time from a request's headers to the first "
                       "byte of its answer.\n# TYPE strum_request_seconds histogram\n");
-    for (size_t index = 0; index < route_count(); index++) {
+    for (size_t index = 0; index < m->count; index++) {
         const route_metrics *r = &m->routes[index];
-        const char *path = route_path(index);
+        const char *path = m->path(index);
         uint64_t below[BOUNDS + 1], total = 0;
         for (size_t i = 0; i <= BOUNDS; i++)
             below[i] = total += r->took[i];
@@ -122,9 +129,8 @@ static void write_latency(const metrics *m, strbuf *out)
     }
 }
 
-static void write_store(store *s, strbuf *out)
+static void write_store(store_counters c, strbuf *out)
 {
-    const store_counters c = store_count(s);
     value(out, "store_hits_total", "counter", "Answers found in the shared store.", c.hits);
     value(out, "store_misses_total", "counter", "Answers that the shared store did not have.",
           c.misses);
@@ -137,14 +143,13 @@ static void write_store(store *s, strbuf *out)
           c.away);
 }
 
-void metrics_write(server *s, strbuf *out)
+void metrics_write(const metrics *m, const metrics_snapshot *now, strbuf *out)
 {
-    const cache_counters c = cache_count(s->cache);
-    const thread_pool_counters w = thread_pool_count(s->thread_pool);
-    write_requests(s->metrics, out);
-    write_latency(s->metrics, out);
-    value(out, "response_bytes_total", "counter", "Bytes of answers' bodies.",
-          s->metrics->bytes);
+    const cache_counters c = now->cache;
+    const thread_pool_counters w = now->pool;
+    write_requests(m, out);
+    write_latency(m, out);
+    value(out, "response_bytes_total", "counter", "Bytes of answers' bodies.", m->bytes);
     value(out, "cache_hits_total", "counter", "Requests answered from memory.", c.hits);
     value(out, "cache_misses_total", "counter", "Requests whose answer was not in memory.",
           c.misses);
@@ -154,23 +159,22 @@ void metrics_write(server *s, strbuf *out)
     strbuf_add_string(out,
                       "# HELP strum_solve_seconds_total Time spent computing answers.\n"
                       "# TYPE strum_solve_seconds_total counter\nstrum_solve_seconds_total ");
-    write_seconds(s->metrics->solve_us, out);
+    write_seconds(m->solve_us, out);
     value(out, "solve_steps_total", "counter",
           "Steps of long computations: trial points of optimisations, forcing frequencies.",
-          s->metrics->solve_steps);
+          m->solve_steps);
     value(out, "solve_failures_total", "counter",
           "Computations that ended without an answer: impossible, given up, or failed.",
-          s->metrics->solve_failures);
-    value(out, "cancels_total", "counter", "Answers given up: nobody waited any more.",
-          c.cancels);
+          m->solve_failures);
+    value(out, "cancels_total", "counter",
+          "Answers given up: all clients had disconnected or timed out.", c.cancels);
     value(out, "cache_evictions_total", "counter", "Answers dropped for room.", c.evictions);
     value(out, "cache_entries", "gauge", "Answers stored.", c.entries);
     value(out, "cache_bytes", "gauge", "Memory of stored answers, bookkeeping included.",
           c.bytes);
-    value(out, "cache_limit_bytes", "gauge", "Most memory that stored answers may take.",
-          c.cap);
-    if (s->store)
-        write_store(s->store, out);
+    value(out, "cache_limit_bytes", "gauge", "Maximum memory for stored answers.", c.cap);
+    if (now->has_store)
+        write_store(now->store, out);
     value(out, "flights", "gauge", "Answers being computed or waiting for it.", c.flights);
     value(out, "workers", "gauge", "Worker threads.", (uint64_t)w.workers);
     value(out, "workers_busy", "gauge", "Workers that solve.", w.working);
@@ -178,8 +182,7 @@ void metrics_write(server *s, strbuf *out)
     value(out, "queue_limit", "gauge", "Requests that may wait for a worker.", w.depth);
     value(out, "queue_refused_total", "counter", "Requests refused for a full queue.",
           w.refused);
-    value(out, "requests_busy", "gauge", "Requests under way.",
-          connections_busy(s->connections));
+    value(out, "requests_busy", "gauge", "Requests under way.", now->busy);
     strbuf_format(out,
                   "# HELP strum_build_info The version.\n# TYPE strum_build_info gauge\n"
                   "strum_build_info{version=\"%s\"} 1\n",

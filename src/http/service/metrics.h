@@ -5,17 +5,30 @@
 
 #include <stdint.h>
 
+#include "cache/cache.h"
+#include "cache/store.h"
+#include "http/service/thread_pool.h"
 #include "json/strbuf.h"
 
 typedef struct metrics metrics;
-struct server;
 
-metrics *metrics_new(void); /* NULL when memory ran out */
+/* What others count, at one moment. */
+typedef struct metrics_snapshot {
+    cache_counters cache;
+    thread_pool_counters pool;
+    bool has_store;
+    store_counters store; /* only if has_store */
+    size_t busy;          /* requests under way */
+} metrics_snapshot;
+
+/* Counters for `routes` routes; `path` gives the label of each. Returns NULL without memory. */
+metrics *metrics_new(size_t routes, const char *(*path)(size_t index));
 void metrics_free(metrics *m);
-/* One answer: its route, status, bytes, and the time from its headers to its first byte. */
+/* Counts an answer: its route, status, bytes, and the time from the request's headers to its
+ * first byte. */
 void metrics_request(metrics *m, size_t index, int status, size_t bytes, double us);
-/* One computation: its status, time, and how many steps it told of (progress.evaluations). */
+/* Counts a computation: its status, time, and the steps it reported (progress.evaluations). */
 void metrics_solve(metrics *m, int status, double us, int64_t steps);
-void metrics_write(struct server *s, strbuf *out);
+void metrics_write(const metrics *m, const metrics_snapshot *now, strbuf *out);
 
 #endif

@@ -32,58 +32,61 @@ static const char *const log_choices[] = {"none", "errors", "refusals", "all", N
 #define AT(member) offsetof(settings, member)
 static const setting table[] = {
     {"listen", SETTING_TEXT, AT(listen), 0, 0, "127.0.0.1:8080",
-     "address:port to listen on, [address]:port for IPv6; port 0 takes a free one and logs it; "
-     "a socket passed by systemd or a parent (LISTEN_FDS) comes before it"},
+     "address:port to listen on, [address]:port for IPv6; port 0 takes a free port and logs "
+     "it; "
+     "a socket passed by systemd or a parent (LISTEN_FDS) takes precedence"},
     {"allow_non_loopback", SETTING_FLAG, AT(allow_non_loopback), 0, 0, "no",
-     "accept a listen address that other machines can reach though no token is asked for"},
+     "accept a listen address that other machines can reach even without token_file"},
     {"token_file", SETTING_TEXT, AT(token_file), 0, 0, "",
-     "file of bearer tokens, one a line, one of which every request but probes must carry"},
+     "file of bearer tokens, one a line; every request except probes must carry one of them"},
     {"event_threads", SETTING_COUNT, AT(event_threads), 1, 64, "1",
      "threads that read requests and send answers"},
     {"workers", SETTING_COUNT, AT(workers), 0, 1024, "0",
-     "threads that solve what takes longer than inline_us; 0: one for each core"},
+     "threads that solve requests estimated to take inline_us or longer; 0: one for each core"},
     {"queue_depth", SETTING_COUNT, AT(queue_depth), 0, 100000, "0",
-     "requests that may wait for a worker before others get 503; 0: 16 for each worker"},
+     "maximum number of requests that wait for a worker; more get 503; 0: 16 for each worker"},
     {"inline_us", SETTING_NUMBER, AT(inline_us), 0, 1e6, "50",
-     "what is estimated to take less (microseconds) is solved without handing it to a worker"},
+     "a request estimated to take fewer microseconds is solved at once, without a worker"},
     {"cache_bytes", SETTING_BYTES, AT(cache_bytes), 0, 1e12, "64M",
-     "most memory for stored answers, their bookkeeping included; 0 stores none"},
+     "maximum memory for stored answers, their bookkeeping included; 0 stores none"},
     {"store", SETTING_TEXT, AT(store), 0, 0, "",
      "address:port or unix:/path of a Redis server, as a second level of stored answers that "
      "several daemons share; empty: none"},
     {"store_timeout_ms", SETTING_NUMBER, AT(store_timeout_ms), 1, 60000, "20",
-     "most time a worker waits for the store, connecting included; then it solves"},
+     "maximum time (milliseconds) a worker waits for the store, connecting included; then it "
+     "solves"},
     {"store_expiry_s", SETTING_COUNT, AT(store_expiry_s), 0, 1e9, "2592000",
-     "seconds that the store keeps an answer; 0: as long as it likes"},
+     "seconds that the store keeps an answer; 0: no limit is set"},
     {"store_secret_file", SETTING_TEXT, AT(store_secret_file), 0, 0, "",
      "file of a secret that the daemons share, 16 characters or more, so that nobody else who "
      "can write to the store can forge an answer"},
     {"store_password_file", SETTING_TEXT, AT(store_password_file), 0, 0, "",
-     "file of the password that the store asks for; it is sent unencrypted"},
+     "file of the store's password, which is sent unencrypted"},
     {"body_bytes", SETTING_BYTES, AT(body_bytes), 256, 64 << 20, "64K",
-     "largest request body; a larger one gets 413"},
+     "maximum size of a request body; a larger one gets 413"},
     {"json_depth", SETTING_COUNT, AT(json_depth), 1, 256, "16",
-     "deepest nesting of a request body"},
+     "maximum nesting depth of a request body"},
     {"json_values", SETTING_COUNT, AT(json_values), 1, 1e7, "20000",
-     "most values in a request body"},
+     "maximum number of values in a request body"},
     {"batches", SETTING_COUNT, AT(batches), 0, 100000, "16",
-     "most batches at once; others get 503"},
+     "maximum number of batches at once; more get 503"},
     {"batch_items", SETTING_COUNT, AT(batch_items), 1, 1e7, "10000",
-     "most items of a batch; more get 413"},
+     "maximum number of items of a batch; more get 413"},
     {"batch_body_bytes", SETTING_BYTES, AT(batch_body_bytes), 256, 1 << 30, "8M",
-     "largest body of a batch; a larger one gets 413"},
+     "maximum size of the body of a batch; a larger one gets 413"},
     {"connections", SETTING_COUNT, AT(connections), 1, 1000000, "4096",
-     "most connections at once; more wait unanswered"},
+     "maximum number of connections at once; more wait unanswered"},
     {"connection_memory_bytes", SETTING_BYTES, AT(connection_memory_bytes), 4096, 1 << 20,
-     "16K", "most memory for a request's line and headers; more gets 414 or 431"},
+     "16K", "maximum memory for a request's line and headers; more gets 414 or 431"},
     {"idle_timeout_s", SETTING_NUMBER, AT(idle_timeout_s), 0.1, 3600, "15",
-     "a connection without traffic is closed after so many seconds"},
+     "seconds without traffic before a connection is closed"},
     {"request_timeout_s", SETTING_NUMBER, AT(request_timeout_s), 0.1, 3600, "10",
-     "most time for a request to arrive, and for its answer to be taken, however it drips"},
+     "maximum time (seconds) to receive a request and to send its answer, also for slow "
+     "clients"},
     {"solve_timeout_s", SETTING_NUMBER, AT(solve_timeout_s), 0.1, 86400, "60",
-     "most time for an answer to be waited for and solved; then 503"},
+     "maximum time (seconds) to wait for an answer and solve it; then 503"},
     {"drain_timeout_s", SETTING_NUMBER, AT(drain_timeout_s), 0, 3600, "30",
-     "most time to finish what is under way after SIGTERM or SIGINT"},
+     "maximum time (seconds) to finish the requests under way after SIGTERM or SIGINT"},
     {"retry_after_s", SETTING_COUNT, AT(retry_after_s), 0, 3600, "1",
      "seconds named in Retry-After with 503"},
     {"cors_origins", SETTING_TEXT, AT(cors_origins), 0, 0, "",
@@ -91,7 +94,7 @@ static const setting table[] = {
     {"log_requests", SETTING_CHOICE, AT(log_requests), 0, LOG_ALL, "errors",
      "requests to log: none, errors (5xx), refusals (4xx and 5xx) or all"},
     {"log_sample", SETTING_COUNT, AT(log_sample), 1, 1e9, "1",
-     "of requests that went well, one in so many is logged; errors and refusals always are"},
+     "one successful request in this number is logged; errors and refusals always are"},
 };
 #define ROWS (sizeof table / sizeof *table)
 
@@ -193,7 +196,7 @@ static void set(settings *s, const setting *row, const char *value, const char *
 
 /* ---- names ---- */
 
-/* The table's own spelling: lower case, "_" for "-". */
+/* Writes a name as in the table: lower case, "_" for "-". */
 static void plain_name(const char *name, size_t size, char plain[64])
 {
     size_t i = 0;
@@ -291,11 +294,9 @@ static bool action_of(const char *flag, settings_action *action)
     static const struct {
         const char *flag;
         settings_action action;
-    } actions[] = {{"--help", SETTINGS_HELP},
-                   {"-h", SETTINGS_HELP},
-                   {"--version", SETTINGS_VERSION},
-                   {"--print-config", SETTINGS_PRINT},
-                   {"--check-config", SETTINGS_CHECK}};
+    } actions[] = {{"--help", SETTINGS_HELP},          {"-h", SETTINGS_HELP},
+                   {"--help-man", SETTINGS_MAN},       {"--version", SETTINGS_VERSION},
+                   {"--print-config", SETTINGS_PRINT}, {"--check-config", SETTINGS_CHECK}};
     for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
         if (strcmp(flag, actions[i].flag) == 0) {
             *action = actions[i].action;
@@ -305,7 +306,8 @@ static bool action_of(const char *flag, settings_action *action)
     return false;
 }
 
-/* The value of flag i: after "=", or the next argument (*i moves on). NULL: there is none. */
+/* Returns the value of flag i: after "=", or the next argument (*i moves on); NULL if there is
+ * none. */
 static const char *flag_value(int argc, char *const argv[], int *i, bool alone)
 {
     const char *equals = strchr(argv[*i], '=');
@@ -382,31 +384,95 @@ void settings_clear(settings *s)
     *s = (settings){0};
 }
 
+static const struct {
+    const char *flag, *help;
+} program_flags[] = {
+    {"--config FILE", "read settings from a file (also STRUM_CONFIG); # begins a comment line"},
+    {"--check-config", "name every fault in the settings and exit"},
+    {"--print-config", "print the settings in force, as a file, and exit"},
+    {"--version", "print the version and exit"},
+    {"--help", "print all settings and exit"},
+    {"--help-man", "print the manual page and exit"},
+};
+#define PROGRAM_FLAGS (sizeof program_flags / sizeof *program_flags)
+
+static void flag_of(const setting *row, char flag[64])
+{
+    snprintf(flag, 64, "--%s", row->name);
+    for (char *c = flag; *c; c++)
+        *c = *c == '_' ? '-' : *c;
+}
+
+static const char purpose[] = "Answers questions about cables as JSON over HTTP";
+static const char rules[] =
+    "Every setting can stand in a file (key = value), in the environment and among the\n"
+    "flags; the later of these wins. A setting workers is the key workers, the variable\n"
+    "STRUM_WORKERS and the flag --workers.";
+
+/* "(default; minimum to maximum)" */
+static void write_range(const setting *row, FILE *out)
+{
+    fprintf(out, "(%s", *row->fallback ? row->fallback : "empty");
+    if (row->min < row->max && row->kind != SETTING_CHOICE)
+        fprintf(out, "; %.15g to %.15g", row->min, row->max);
+    fputs(")\n", out);
+}
+
 void settings_help(FILE *out)
 {
-    fputs(
-        "usage: strumd [--setting value]...\n\n"
-        "Answers questions about cables as JSON over HTTP.\n\n"
-        "Every setting can stand in a file (key = value), in the environment and among the\n"
-        "flags; the later of these wins. A setting workers is the key workers, the variable\n"
-        "STRUM_WORKERS and the flag --workers.\n\n"
-        "  --config FILE    settings from a file (also STRUM_CONFIG); # begins a comment line\n"
-        "  --check-config   name every fault in the settings and exit\n"
-        "  --print-config   print the settings in force, as a file, and exit\n"
-        "  --version        print the version and exit\n"
-        "  --help           print this and exit\n\n"
-        "settings:\n",
-        out);
+    fprintf(out, "usage: strumd [--setting value]...\n\n%s.\n\n%s\n\n", purpose, rules);
+    for (size_t i = 0; i < PROGRAM_FLAGS; i++)
+        fprintf(out, "  %-16s %s\n", program_flags[i].flag, program_flags[i].help);
+    fputs("\nsettings (default; range):\n", out);
     for (size_t i = 0; i < ROWS; i++) {
         char flag[64];
-        snprintf(flag, sizeof flag, "%s", table[i].name);
-        for (char *c = flag; *c; c++)
-            *c = *c == '_' ? '-' : *c;
-        fprintf(out, "  --%s (%s", flag, *table[i].fallback ? table[i].fallback : "empty");
-        if (table[i].min < table[i].max && table[i].kind != SETTING_CHOICE)
-            fprintf(out, "; %.15g to %.15g", table[i].min, table[i].max);
-        fprintf(out, ")\n      %s\n", table[i].help);
+        flag_of(&table[i], flag);
+        fprintf(out, "  %s ", flag);
+        write_range(&table[i], out);
+        fprintf(out, "      %s\n", table[i].help);
     }
+}
+
+/* A line of text as roff reads it back unchanged. */
+static void write_roff(const char *text, FILE *out)
+{
+    for (; *text; text++) {
+        if (*text == '-' || *text == '\\')
+            fputs(*text == '-' ? "\\-" : "\\e", out);
+        else
+            fputc(*text, out);
+    }
+    fputc('\n', out);
+}
+
+void settings_man(const char *version, FILE *out)
+{
+    fprintf(out,
+            ".TH STRUMD 8 \"\" \"strum %s\"\n.SH NAME\nstrumd \\- %s\n.SH SYNOPSIS\n.B strumd\n"
+            "[\\fB\\-\\-\\fIsetting value\\fR]...\n.SH DESCRIPTION\n",
+            version, purpose);
+    write_roff(rules, out);
+    for (size_t i = 0; i < PROGRAM_FLAGS; i++) {
+        fputs(i ? ".TP\n.B " : ".SH OPTIONS\n.TP\n.B ", out);
+        write_roff(program_flags[i].flag, out);
+        write_roff(program_flags[i].help, out);
+    }
+    fputs(".SH SETTINGS\nEach with its default and its range.\n", out);
+    for (size_t i = 0; i < ROWS; i++) {
+        char flag[64];
+        flag_of(&table[i], flag);
+        fputs(".TP\n.B ", out);
+        write_roff(flag, out);
+        write_range(&table[i], out);
+        fputs(".br\n", out);
+        write_roff(table[i].help, out);
+    }
+    fputs(
+        ".SH SIGNALS\n.TP\n.B SIGTERM, SIGINT\n"
+        "refuse new connections and finish the requests under way; a second one ends at once\n"
+        ".SH EXIT STATUS\n0 when every request was finished, 1 when it could not start or cut\n"
+        "requests short, 2 when the settings have a fault.\n",
+        out);
 }
 
 void settings_print(const settings *s, FILE *out)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What a run of strumd may be told, from one table (settings.c): defaults < file < environment
- * < flags. A row gives the file's key (`cache_bytes`), the environment's name
+ * The settings of strumd, from one table (settings.c): defaults < file < environment < flags. A
+ * row gives the file's key (`cache_bytes`), the environment's name
  * (STRUM_CACHE_BYTES), the flag (--cache-bytes), range, default and help.
  */
 #ifndef HTTP_SERVICE_SETTINGS_H
@@ -37,20 +37,23 @@ typedef struct settings {
 typedef enum settings_action {
     SETTINGS_RUN,
     SETTINGS_HELP,
+    SETTINGS_MAN,
     SETTINGS_VERSION,
     SETTINGS_PRINT,
     SETTINGS_CHECK,
 } settings_action;
 
-/* Reads them all. Every fault is a line in `faults`; none: `s` is complete. End with
- * settings_clear in either case. */
+/* Reads all settings. Writes a line into `faults` for each fault and returns whether there was
+ * none; then `s` is complete. End with settings_clear in either case. */
 bool settings_read(settings *s, int argc, char *const argv[], char *const environment[],
                    settings_action *action, strbuf *faults);
 void settings_clear(settings *s);
 
-/* The help of --help. */
+/* Writes the text of --help. */
 void settings_help(FILE *out);
-/* As a file that reads back the same. */
+/* Writes the manual page strumd.8, as roff. */
+void settings_man(const char *version, FILE *out);
+/* Writes the settings as a file that reads back the same. */
 void settings_print(const settings *s, FILE *out);
 
 #endif

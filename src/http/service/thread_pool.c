@@ -5,48 +5,48 @@
 #include <stdlib.h>
 #include <sys/resource.h> /* setpriority: on Linux of a thread */
 
-#include "http/transport/clock.h"
+#include "http/service/clock.h"
 
-/* The numerics keep their arrays on the heap; the default of 8 MiB for each would only count
- * against limits. */
-#define CREW_STACK (1 << 20)
-/* Beside 0, that of event threads: a tenth of their share where both want one core. */
+/* The numerics keep their arrays on the heap; the default stack of 8 MiB per thread would only
+ * count against limits. */
+#define WORKER_STACK (1 << 20)
+/* Event threads have 0: a worker gets a tenth of their share of a core that both want. */
 #define WORKER_NICE 10
 
-/* So many turns go to requests before background work gets one. */
+/* Requests taken before one background job is taken. */
 #define BACKGROUND_AFTER 3
 
-typedef struct line {
+typedef struct job_queue {
     job *first, **last;
-} line;
+} job_queue;
 
 struct thread_pool {
     pthread_mutex_t lock;
     pthread_cond_t work;
-    line requests, background;
-    int turns; /* of requests since background work had one */
+    job_queue requests, background;
+    int turns; /* requests taken since the last background job */
     bool ending;
     thread_pool_counters count;
     pthread_t threads[];
 };
 
-static void line_add(line *l, job *j)
+static void job_queue_add(job_queue *q, job *j)
 {
     j->next = NULL;
-    *l->last = j;
-    l->last = &j->next;
+    *q->last = j;
+    q->last = &j->next;
 }
 
-static job *line_take(line *l)
+static job *job_queue_take(job_queue *q)
 {
-    job *j = l->first;
-    l->first = j->next;
-    if (!l->first)
-        l->last = &l->first;
+    job *j = q->first;
+    q->first = j->next;
+    if (!q->first)
+        q->last = &q->first;
     return j;
 }
 
-static size_t background_most(const thread_pool *c)
+static size_t background_limit(const thread_pool *c)
 {
     return c->count.workers > 1 ? (size_t)c->count.workers - 1 : 1;
 }
@@ -55,21 +55,21 @@ static job *take_request(thread_pool *c)
 {
     c->turns++;
     c->count.queued--;
-    /* Not for one place: under a lasting overload that is taken at once. */
+    /* A single free place does not count: under a lasting overload it is taken at once. */
     if (c->count.queued <= c->count.depth / 2)
         c->count.full_since_ms = 0;
-    return line_take(&c->requests);
+    return job_queue_take(&c->requests);
 }
 
-/* The next piece of work, or NULL. */
+/* Returns the next job, or NULL. */
 static job *take(thread_pool *c, bool *background)
 {
-    const bool may = c->background.first && c->count.background < background_most(c);
+    const bool may = c->background.first && c->count.background < background_limit(c);
     *background = may && (!c->requests.first || c->turns >= BACKGROUND_AFTER);
     if (*background) {
         c->turns = 0;
         c->count.background++;
-        return line_take(&c->background);
+        return job_queue_take(&c->background);
     }
     return c->requests.first ? take_request(c) : NULL;
 }
@@ -78,8 +78,8 @@ static void *worker(void *argument)
 {
     thread_pool *c = argument;
     bool background;
-    /* Event threads go first: what is stored does not wait for what is being solved. Refused
-     * (it never is, for less), nothing but the order is lost. */
+    /* Event threads go first, so that a stored answer does not wait for one being solved. If
+     * the call fails, only that order is lost. */
     (void)setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + WORKER_NICE);
     pthread_mutex_lock(&c->lock);
     for (;;) {
@@ -92,7 +92,7 @@ static void *worker(void *argument)
         }
         c->count.working++;
         pthread_mutex_unlock(&c->lock);
-        j->work(j); /* j is gone afterwards */
+        j->work(j); /* j may be freed by this */
         pthread_mutex_lock(&c->lock);
         c->count.working--;
         c->count.done++;
@@ -116,7 +116,7 @@ thread_pool *thread_pool_new(int workers, size_t depth)
     pthread_cond_init(&c->work, NULL);
     pthread_attr_t attributes;
     if (pthread_attr_init(&attributes) == 0) {
-        pthread_attr_setstacksize(&attributes, CREW_STACK);
+        pthread_attr_setstacksize(&attributes, WORKER_STACK);
         while (c->count.workers < workers &&
                pthread_create(&c->threads[c->count.workers], &attributes, worker, c) == 0)
             c->count.workers++;
@@ -147,7 +147,7 @@ void thread_pool_free(thread_pool *c)
 bool thread_pool_reserve(thread_pool *c)
 {
     pthread_mutex_lock(&c->lock);
-    /* An idle worker takes the work at once: it is not waiting in the queue. */
+    /* An idle worker takes a job at once: it does not wait in the queue. */
     const size_t idle = (size_t)c->count.workers - c->count.working;
     const bool room = c->count.queued < c->count.depth + idle;
     if (room)
@@ -163,7 +163,7 @@ bool thread_pool_reserve(thread_pool *c)
 void thread_pool_queue(thread_pool *c, job *j)
 {
     pthread_mutex_lock(&c->lock);
-    line_add(&c->requests, j);
+    job_queue_add(&c->requests, j);
     pthread_cond_signal(&c->work);
     pthread_mutex_unlock(&c->lock);
 }
@@ -171,7 +171,7 @@ void thread_pool_queue(thread_pool *c, job *j)
 void thread_pool_queue_background(thread_pool *c, job *j)
 {
     pthread_mutex_lock(&c->lock);
-    line_add(&c->background, j);
+    job_queue_add(&c->background, j);
     pthread_cond_signal(&c->work);
     pthread_mutex_unlock(&c->lock);
 }

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A piece of work, embedded in what it is about; the giver keeps it until `work` is called. */
+/* A job, embedded in the object it works on; the caller keeps it until `work` is called. */
 typedef struct job {
     void (*work)(struct job *j);
     struct job *next;
@@ -15,22 +15,22 @@ typedef struct job {
 
 typedef struct thread_pool thread_pool;
 
-/* NULL when a thread cannot be had. */
+/* Returns NULL when memory or a thread cannot be had. */
 thread_pool *thread_pool_new(int workers, size_t depth);
-/* Finishes all that was given, then ends the threads. */
+/* Finishes all jobs queued, then ends the threads. */
 void thread_pool_free(thread_pool *c);
 
-/* A place in the queue, to be used by thread_pool_queue; false when it is full. */
+/* Reserves a place in the queue for thread_pool_queue; returns false when it is full. */
 bool thread_pool_reserve(thread_pool *c);
 void thread_pool_queue(thread_pool *c, job *j);
-/* Work that needs no place and gives way: at most all workers but one are at it (with a single
- * worker: that one), and while others wait it gets a quarter of the turns. */
+/* Queues a low-priority job; it needs no reservation. At most workers - 1 (at least 1) of them
+ * run at once; while requests wait, one job in four is low-priority. */
 void thread_pool_queue_background(thread_pool *c, job *j);
 
 typedef struct thread_pool_counters {
     int workers;
-    size_t depth, queued, working; /* queued: reserved places that no worker has taken up */
-    size_t background;             /* of those that work */
+    size_t depth, queued, working; /* queued: reserved places whose job no worker has begun */
+    size_t background;             /* of those working */
     uint64_t done, refused;
     int64_t full_since_ms; /* first refusal since the queue was half empty, by clock_ms(); 0:
                               none */

@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <sys/socket.h>
 
-#include "http/api/solve_handler.h"
-#include "http/transport/clock.h"
-#include "http/transport/server.h"
+#include "http/service/clock.h"
 
 #define REAPER_PERIOD_MS 100
 
@@ -19,12 +17,13 @@ struct connections {
     bool ending;
     connection *first;
     atomic_size_t count, opened;
-    server *server;
+    service *service;
+    const handlers *handlers;
 };
 
 /* ---- the reaper ---- */
 
-/* A client that closes its side of a suspended connection is not noticed by libmicrohttpd. */
+/* libmicrohttpd does not notice a client that closes its side of a suspended connection. */
 static bool has_left(const connection *p)
 {
     char byte;
@@ -32,7 +31,7 @@ static bool has_left(const connection *p)
     return got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
 }
 
-static void look_at(connection *p, int64_t now)
+static void inspect(connection *p, int64_t now)
 {
     const bool late = now > atomic_load(&p->deadline_ms);
     if (atomic_load(&p->phase) != CONNECTION_WAITING) {
@@ -40,7 +39,8 @@ static void look_at(connection *p, int64_t now)
         if (late)
             shutdown(p->fd, SHUT_RDWR);
     } else if (late || has_left(p)) {
-        solve_give_up(p, late ? "it took longer than solve_timeout_s" : "the client left");
+        p->all->handlers->give_up(p, late ? "it took longer than solve_timeout_s"
+                                          : "the client left");
     }
 }
 
@@ -57,18 +57,19 @@ static void *reap(void *argument)
         pthread_cond_timedwait(&all->end, &all->lock, &until);
         const int64_t now = clock_ms();
         for (connection *p = all->first; p; p = p->next)
-            look_at(p, now);
+            inspect(p, now);
     }
     pthread_mutex_unlock(&all->lock);
     return NULL;
 }
 
-connections *connections_new(server *s)
+connections *connections_new(service *s, const handlers *h)
 {
     connections *all = calloc(1, sizeof *all);
     if (!all)
         return NULL;
-    all->server = s;
+    all->service = s;
+    all->handlers = h;
     pthread_condattr_t monotonic;
     pthread_condattr_init(&monotonic);
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
@@ -100,19 +101,24 @@ void connections_free(connections *all)
 
 /* ---- one connection ---- */
 
-connection *connection_open(server *s, struct MHD_Connection *mhd)
+connection *connection_open(connections *all, struct MHD_Connection *mhd)
 {
     const union MHD_ConnectionInfo *info =
         MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CONNECTION_FD);
     connection *p = info ? calloc(1, sizeof *p) : NULL;
     if (!p)
         return NULL;
-    p->server = s;
+    const settings *set = all->service->settings;
+    p->service = all->service;
+    p->all = all;
     p->mhd = mhd;
     p->fd = info->connect_fd;
-    connection_enter(p, CONNECTION_IDLE,
-                     s->settings->idle_timeout_s + s->settings->request_timeout_s);
-    connections *all = s->connections;
+    p->request = all->handlers->open(p);
+    if (!p->request) {
+        free(p);
+        return NULL;
+    }
+    connection_enter(p, CONNECTION_IDLE, set->idle_timeout_s + set->request_timeout_s);
     pthread_mutex_lock(&all->lock);
     p->next = all->first;
     if (all->first)
@@ -126,14 +132,14 @@ connection *connection_open(server *s, struct MHD_Connection *mhd)
 
 void connection_close(connection *p)
 {
-    connections *all = p->server->connections;
+    connections *all = p->all;
     pthread_mutex_lock(&all->lock);
     *(p->previous ? &p->previous->next : &all->first) = p->next;
     if (p->next)
         p->next->previous = p->previous;
     all->count--;
     pthread_mutex_unlock(&all->lock);
-    request_clear(&p->request);
+    all->handlers->close(p->request);
     free(p);
 }
 
@@ -142,14 +148,20 @@ void connection_enter(connection *p, connection_phase phase, double seconds)
     const bool waiting =
         phase == CONNECTION_WAITING ||
         atomic_load_explicit(&p->phase, memory_order_relaxed) == CONNECTION_WAITING;
-    /* The reaper works on the request of one that waits: not while that changes. */
+    /* The reaper works on the request of a waiting connection: not while the phase changes. */
     if (waiting)
-        pthread_mutex_lock(&p->server->connections->lock);
+        pthread_mutex_lock(&p->all->lock);
     atomic_store_explicit(&p->deadline_ms, clock_ms() + (int64_t)(seconds * 1000),
                           memory_order_relaxed);
     atomic_store_explicit(&p->phase, phase, memory_order_release);
     if (waiting)
-        pthread_mutex_unlock(&p->server->connections->lock);
+        pthread_mutex_unlock(&p->all->lock);
+}
+
+void connection_end_if_stopping(connection *p)
+{
+    if (p->service->stopping)
+        p->all->handlers->give_up(p, "the daemon is shutting down");
 }
 
 /* ---- all of them ---- */
@@ -176,8 +188,8 @@ size_t connections_busy(connections *all)
 
 void connections_end_idle(connections *all, double seconds)
 {
-    const settings *set = all->server->settings;
-    /* When the deadline of one that has been idle since then is. */
+    const settings *set = all->service->settings;
+    /* The deadline of a connection that has been idle for exactly that long. */
     const int64_t limit =
         clock_ms() + (int64_t)((set->idle_timeout_s + set->request_timeout_s - seconds) * 1000);
     pthread_mutex_lock(&all->lock);
@@ -192,6 +204,6 @@ void connections_end_waiting(connections *all)
     pthread_mutex_lock(&all->lock);
     for (connection *p = all->first; p; p = p->next)
         if (atomic_load(&p->phase) == CONNECTION_WAITING)
-            solve_give_up(p, "the daemon is shutting down");
+            p->all->handlers->give_up(p, "the daemon is shutting down");
     pthread_mutex_unlock(&all->lock);
 }

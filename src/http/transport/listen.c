@@ -11,27 +11,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-/* A burst of new connections waits here; the kernel's own limit cuts it. */
-#define LISTEN_BACKLOG 1024
+#include "http/service/address.h"
 
-bool listen_split(const char *where, char host[256], char port[16])
-{
-    const char *colon = strrchr(where, ':');
-    if (!colon || colon == where || !colon[1] || strlen(colon + 1) > 5 ||
-        strspn(colon + 1, "0123456789") != strlen(colon + 1))
-        return false;
-    size_t size = (size_t)(colon - where);
-    const bool bracketed = where[0] == '[' && colon[-1] == ']';
-    if (bracketed) {
-        where++;
-        size -= 2;
-    }
-    if (size == 0 || size > 255 || (!bracketed && memchr(where, ':', size)))
-        return false;
-    snprintf(host, 256, "%.*s", (int)size, where);
-    snprintf(port, 16, "%s", colon + 1);
-    return true;
-}
+/* A burst of new connections waits here; the kernel's limit may be lower. */
+#define LISTEN_BACKLOG 1024
 
 static bool is_loopback(const struct sockaddr *address)
 {
@@ -75,10 +58,10 @@ static int bind_first(const struct addrinfo *address)
     return -1;
 }
 
-/* The first of the descriptors that sd_listen_fds(3) tells of. */
+/* The first descriptor passed, by sd_listen_fds(3). */
 #define PASSED_FD 3
 
-/* Whether a socket is passed; *number of them. */
+/* Returns whether sockets are passed; *number is how many. */
 static bool is_passed(long *number)
 {
     const char *pid = getenv("LISTEN_PID"), *count = getenv("LISTEN_FDS");
@@ -121,7 +104,7 @@ bool listen_open(const char *where, bool allow_any, listen_at *at, char fault[25
     *at = (listen_at){.fd = -1};
     if (is_passed(&passed))
         return take_passed(passed, allow_any, at, fault);
-    if (!listen_split(where, host, port)) {
+    if (!address_split(where, host, port)) {
         snprintf(fault, 256, "listen must be address:port or [address]:port, not \"%.100s\"",
                  where);
         return false;

@@ -9,18 +9,15 @@
 
 typedef struct listen_at {
     int fd;
-    bool inherited;              /* others accept from it too: it stays when we go */
-    int port;                    /* the one taken where 0 was asked */
+    bool inherited;              /* other processes accept from it too: it outlives us */
+    int port;                    /* the one taken if 0 was asked for */
     char name[LISTEN_NAME_SIZE]; /* "127.0.0.1:8080", "[::1]:8080" */
 } listen_at;
 
-/* "[host]:port" or "host:port"; false for anything else. */
-bool listen_split(const char *where, char host[256], char port[16]);
-
-/* Takes the socket that a service manager or a parent passes (systemd's protocol: descriptor 3,
+/* Takes the socket passed by a service manager or a parent (systemd's protocol: descriptor 3,
  * LISTEN_FDS=1 and our LISTEN_PID). Otherwise binds "address:port" or "[address]:port". An
- * address that other machines can reach is refused unless `allow_any`. False with a sentence in
- * `fault`. */
+ * address that other machines can reach is refused unless `allow_any`. Returns false with
+ * a sentence in `fault`. */
 bool listen_open(const char *where, bool allow_any, listen_at *at, char fault[256]);
 
 #endif

@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-#include "http/transport/clock.h"
-#include "http/transport/server.h"
+#include "http/service/clock.h"
+#include "http/transport/connections.h"
 
-/* The most that is copied to libmicrohttpd in one go. */
+/* Maximum number of bytes copied to libmicrohttpd in one go. */
 #define STREAM_BLOCK 16384
 
 enum { HANDOVER_NONE, HANDOVER_SUSPENDED, HANDOVER_WOKEN };
@@ -15,7 +15,7 @@ void stream_init(stream *s, connection *p)
 {
     s->connection = p;
     s->references = 1;
-    s->wait_until_ms = clock_ms() + (int64_t)(p->server->settings->solve_timeout_s * 1000);
+    s->wait_until_ms = clock_ms() + (int64_t)(p->service->settings->solve_timeout_s * 1000);
 }
 
 void stream_ref(stream *s)
@@ -33,7 +33,7 @@ void stream_unref(stream *s)
 
 void stream_wake(stream *s)
 {
-    /* A suspended connection stays until it is resumed, and its peer with it. */
+    /* A suspended connection stays until it is resumed. */
     if (atomic_exchange(&s->handover, HANDOVER_WOKEN) == HANDOVER_SUSPENDED)
         MHD_resume_connection(s->connection->mhd);
 }
@@ -49,23 +49,21 @@ static void suspend(stream *s)
     connection *p = s->connection;
     MHD_suspend_connection(p->mhd);
     connection_enter(p, CONNECTION_WAITING, (double)(s->wait_until_ms - clock_ms()) / 1000);
-    /* Either this sees that the daemon stops, or the daemon sees who waits. */
-    if (p->server->stopping)
-        stream_give_up(s, "the daemon is shutting down");
+    connection_end_if_stopping(p);
     int none = HANDOVER_NONE;
     if (!atomic_compare_exchange_strong(&s->handover, &none, HANDOVER_SUSPENDED))
         MHD_resume_connection(p->mhd);
 }
 
-static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t most)
+static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t room)
 {
     (void)position;
     stream *s = cls;
     connection_enter(s->connection, CONNECTION_SENDING,
-                     s->connection->server->settings->request_timeout_s);
+                     s->connection->service->settings->request_timeout_s);
     while (s->sent == s->out.size) {
         s->out.size = s->sent = 0;
-        /* Whatever comes after this is seen by `next` or wakes. */
+        /* What comes after this is seen by `next`, or wakes the stream. */
         atomic_store(&s->handover, HANDOVER_NONE);
         const stream_turn turn = s->next(s);
         if (turn == STREAM_BROKEN || s->out.failed)
@@ -77,7 +75,7 @@ static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t most)
             return 0;
         }
     }
-    const size_t left = s->out.size - s->sent, size = left < most ? left : most;
+    const size_t left = s->out.size - s->sent, size = left < room ? left : room;
     memcpy(to, s->out.data + s->sent, size);
     s->sent += size;
     return (ssize_t)size;

@@ -8,7 +8,6 @@
 
 #include "cache/slot.h"
 #include "http/api/reply.h"
-#include "http/transport/server.h"
 
 #include "check.h"
 
@@ -536,7 +535,7 @@ static void no_more_memory_is_taken_than_is_counted(void **state)
     (void)state;
     char origins[] = "https://example.org";
     const settings set = {.cors_origins = origins};
-    server s = {.settings = &set};
+    service s = {.settings = &set};
     const size_t before = mallinfo2().uordblks;
     cache *c = cache_new(8 << 20);
     for (uint64_t i = 0; i < 5000; i++) {

@@ -12,7 +12,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "http/transport/server.h"
+#include "http/api/api.h"
 
 #include "check.h"
 
@@ -64,7 +64,7 @@ char *__wrap_strndup(const char *string, size_t size)
 
 typedef struct running {
     settings settings;
-    server server;
+    api api;
     int signals;
     pthread_t thread;
     bool clean;
@@ -73,7 +73,7 @@ typedef struct running {
 static void *run(void *argument)
 {
     running *r = argument;
-    r->clean = server_run(&r->server, r->signals);
+    r->clean = server_run(&r->api.server, r->signals);
     return NULL;
 }
 
@@ -98,7 +98,7 @@ static int start(void **state)
     if (!r || !settings_read(&r->settings, 5, argv, environment, &action, &faults))
         return -1;
     r->signals = signalfd(-1, &ends, SFD_NONBLOCK | SFD_CLOEXEC);
-    if (!server_start(&r->server, &r->settings, fault)) {
+    if (!api_start(&r->api, &r->settings, fault)) {
         print_error("%s\n", fault);
         return -1;
     }
@@ -113,7 +113,7 @@ static int stop(void **state)
     running *r = *state;
     kill(getpid(), SIGTERM);
     pthread_join(r->thread, NULL);
-    server_free(&r->server);
+    api_free(&r->api);
     close(r->signals);
     settings_clear(&r->settings);
     const bool clean = r->clean;
@@ -125,7 +125,7 @@ static int dial(const running *r)
 {
     const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     const struct sockaddr_in address = {.sin_family = AF_INET,
-                                        .sin_port = htons((uint16_t)r->server.at.port),
+                                        .sin_port = htons((uint16_t)r->api.server.at.port),
                                         .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
     assert_int_equal(connect(fd, (const struct sockaddr *)&address, sizeof address), 0);
     return fd;
@@ -253,16 +253,16 @@ static void a_start_without_memory(void **state)
     bool started = false;
     for (long n = 0; !started; n++) {
         assert_true(n < 100);
-        server s;
+        api a;
         char fault[256] = "";
         only_once = true;
         allocations = 0;
         fails_from = n;
-        started = server_start(&s, &r->settings, fault);
+        started = api_start(&a, &r->settings, fault);
         fails_from = NEVER;
         if (!started)
             assert_true(fault[0] != '\0');
-        server_free(&s);
+        api_free(&a);
     }
 }
 

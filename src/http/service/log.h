@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One JSON line on stderr for each event. No bodies, no tokens. */
-#ifndef HTTP_TRANSPORT_LOG_H
-#define HTTP_TRANSPORT_LOG_H
+#ifndef HTTP_SERVICE_LOG_H
+#define HTTP_SERVICE_LOG_H
 
 #include "json/write.h"
 
@@ -10,10 +10,10 @@ typedef struct log_line {
     json_writer json;
 } log_line;
 
-/* Begins {"time", "level", "event"; add members by json_put_...; log_close writes the line. */
+/* Begins a line {"time", "level", "event"; add members with json_put_...; log_close writes it. */
 json_writer *log_open(log_line *line, const char *level, const char *event);
 void log_close(log_line *line);
-/* A line with one member "detail". */
+/* Writes a line with one more member, "detail". */
 void log_say(const char *level, const char *event, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "http/transport/log.h"
+#include "http/service/log.h"
 
 #include <stdarg.h>
 #include <stdio.h>

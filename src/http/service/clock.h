@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Time that only moves forward. */
-#ifndef HTTP_TRANSPORT_CLOCK_H
-#define HTTP_TRANSPORT_CLOCK_H
+#ifndef HTTP_SERVICE_CLOCK_H
+#define HTTP_SERVICE_CLOCK_H
 
 #include <stdint.h>
 #include <time.h>
 
-/* Good to a few milliseconds, and nearly free. */
+/* Accurate to a few milliseconds, and nearly free. */
 static inline int64_t clock_ms(void)
 {
     struct timespec now;
