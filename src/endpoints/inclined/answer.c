@@ -253,11 +253,6 @@ static void warn_of_model(const inclined_request *r, double last, answer *a)
 
 /* ---- */
 
-static bool nobody_waits(void *context)
-{
-    return answer_cancelled(context);
-}
-
 static strum_status solve(const inclined_request *r, strum_inclined **solved,
                           const strum_options *options, strum_error *error, answer *a)
 {
@@ -333,7 +328,7 @@ static strum_status write_result(const inclined_request *r, strum_inclined *cons
 static bool answer_modes(const void *data, answer *a)
 {
     const inclined_request *r = data;
-    const strum_options options = {.cancelled = nobody_waits, .context = a};
+    const strum_options options = answer_options(a);
     strum_inclined *solved[MODELS] = {NULL};
     strum_error error = {0};
     a->theory = theory_of(r);
