@@ -18,16 +18,22 @@
 /* Points that are tabulated together: bounds the memory. */
 #define CHUNK 256
 
-/* Values from force F and its slope dF/dx along the fixed axes: F' = -omega^2 (tt' h + nn') X
- * with ' = d/dsigma; forces in T_a cos(phi_a), displacements in a = L/length. */
-static void from_force(const strum_inclined *m, const strum_cable *cable, int mode, double x,
-                       const double force[2], const double slope[2], strum_inclined_point *out)
+/* The frame of the cable at one point. */
+typedef struct frame {
+    double slope, cosh_chi, c, s;
+} frame;
+
+/* Values from force F and its slope dF/dx along the fixed axes:
+ *     F' = -omega^2 (tt' h + nn') X,  ' = d/dsigma,
+ * forces in T_a cos(phi_a), displacements in a = L/length. */
+static void from_force(const strum_inclined *m, const strum_cable *cable, int mode,
+                       const frame *at, const double force[2], const double slope[2],
+                       strum_inclined_point *out)
 {
-    double cosh_chi, c, s;
-    in_plane_frame_at(&m->along, x, &cosh_chi, &c, &s);
+    const double c = at->c, s = at->s;
     const double unit = m->cable.epsilon / sqrt(cos(m->cable.inclination));
     const double omega = m->modes[mode].kl / unit;
-    const double scale = -1 / (mapping_slope(&m->along, x) * cosh_chi * omega * omega);
+    const double scale = -1 / (at->slope * at->cosh_chi * omega * omega);
     out->longitudinal = (c * slope[0] + s * slope[1]) * scale / cable->mass_t;
     out->transverse = (c * slope[1] - s * slope[0]) * scale / cable->mass_n;
     out->tension = (c * force[0] + s * force[1]) * m->cable.epsilon;
@@ -44,52 +50,83 @@ static bool from_strain(const strum_inclined *m, int mode)
     return m->modes[mode].kl * sqrt(m->cable.mass_ratio / m->statics.stiffness) < M_PI;
 }
 
+/* Some points at a time: functions, forces, their slopes, and displacements along from the
+ * strain; `rows` points a column. */
+typedef struct tables {
+    int rows;
+    double *factors, *p, *q, *force, *slope, *along;
+} tables;
+
+static strum_status tables_make(const strum_inclined *m, const inclined_samples *at, arena *a,
+                                tables *t)
+{
+    t->rows = at->points < CHUNK ? at->points : CHUNK;
+    const size_t size = (size_t)m->size, rows = (size_t)t->rows;
+    const size_t columns = 2 * (size_t)(at->last - at->first);
+    t->p = arena_doubles(a, 2 * size * rows);
+    t->force = arena_doubles(a, 5 * rows * (columns / 2));
+    t->factors = arena_doubles(a, 4 * size);
+    if (t->p == NULL || t->force == NULL || t->factors == NULL)
+        return STRUM_ERR_MEMORY;
+    legendre_factors(m->size, t->factors);
+    t->q = t->p + size * rows;
+    t->slope = t->force + rows * columns;
+    t->along = t->slope + rows * columns;
+    return STRUM_OK;
+}
+
+static void tabulate(const strum_inclined *m, const inclined_samples *at, int start, int n,
+                     const tables *t)
+{
+    const int size = m->size, modes = at->last - at->first;
+    const double *forces = m->forces + 2 * (size_t)at->first * (size_t)size;
+    const double *stretch = m->stretch + (size_t)at->first * (size_t)size;
+    for (int i = 0; i < n; i++)
+        legendre_at_with(t->factors, at->x[start + i], size, t->p + (size_t)i * (size_t)size,
+                         t->q + (size_t)i * (size_t)size);
+    linalg_multiply('T', 'N', n, 2 * modes, size, t->q, size, forces, size, t->force, t->rows);
+    linalg_multiply('T', 'N', n, 2 * modes, size, t->p, size, forces, size, t->slope, t->rows);
+    linalg_multiply('T', 'N', n, modes, size, t->q, size, stretch, size, t->along, t->rows);
+}
+
+/* Row `i` of the tables, which is point `start + i`. */
+static void put_point(const strum_inclined *m, const inclined_samples *at, int start, int i,
+                      const tables *t)
+{
+    const strum_cable cable = inclined_mechanics(&m->cable, &m->statics);
+    const double x = at->x[start + i];
+    const size_t rows = (size_t)t->rows;
+    frame here = {.slope = mapping_slope(&m->along, x)};
+    in_plane_frame_at(&m->along, x, &here.cosh_chi, &here.c, &here.s);
+    for (int mode = at->first; mode < at->last; mode++) {
+        const size_t k = (size_t)(mode - at->first), row = (size_t)i + 2 * k * rows;
+        const double f[2] = {m->constants[2 * mode] + t->force[row],
+                             m->constants[2 * mode + 1] + t->force[row + rows]};
+        const double df[2] = {t->slope[row], t->slope[row + rows]};
+        strum_inclined_point *out =
+            &at->out[(start + i) * (at->last - at->first) + mode - at->first];
+        from_force(m, &cable, mode, &here, f, df, out);
+        if (from_strain(m, mode)) /* q_0 lacks its value at x = 0 */
+            out->longitudinal = t->along[(size_t)i + k * rows] +
+                                M_SQRT1_2 * m->stretch[(size_t)mode * (size_t)m->size];
+    }
+}
+
 static strum_status evaluate(const strum_inclined *m, const inclined_samples *at,
                              arena *scratch, work *w)
 {
-    const int first = at->first, last = at->last, points = at->points;
-    const strum_cable cable = inclined_mechanics(&m->cable, &m->statics);
-    const int columns = 2 * (last - first), most = points < CHUNK ? points : CHUNK;
-    const size_t size = (size_t)m->size, chunk = (size_t)most;
-    double *p = arena_doubles(scratch, 2 * size * chunk);
-    double *force = arena_doubles(scratch, 5 * chunk * (size_t)(columns / 2));
-    double *factors = arena_doubles(scratch, 4 * size);
-    if (p == NULL || force == NULL || factors == NULL)
-        return STRUM_ERR_MEMORY;
-    legendre_factors(m->size, factors);
-    double *q = p + size * chunk, *slope = force + chunk * (size_t)columns;
-    double *along = slope + chunk * (size_t)columns;
-    const double *coefficients = m->forces + 2 * (size_t)first * size;
-    const double *stretch = m->stretch + (size_t)first * size;
-    for (int start = 0; start < points; start += most) {
-        const int n = points - start < most ? points - start : most;
-        const strum_status status = work_spend(w, 0);
+    tables t;
+    strum_status status = tables_make(m, at, scratch, &t);
+    for (int start = 0; status == STRUM_OK && start < at->points; start += t.rows) {
+        const int n = at->points - start < t.rows ? at->points - start : t.rows;
+        status = work_spend(w, 0);
         if (status != STRUM_OK)
-            return status;
+            break;
+        tabulate(m, at, start, n, &t);
         for (int i = 0; i < n; i++)
-            legendre_at_with(factors, at->x[start + i], m->size, p + (size_t)i * size,
-                             q + (size_t)i * size);
-        linalg_multiply('T', 'N', n, columns, m->size, q, m->size, coefficients, m->size, force,
-                        most);
-        linalg_multiply('T', 'N', n, columns, m->size, p, m->size, coefficients, m->size, slope,
-                        most);
-        linalg_multiply('T', 'N', n, last - first, m->size, q, m->size, stretch, m->size, along,
-                        most);
-        for (int i = 0; i < n; i++)
-            for (int mode = first; mode < last; mode++) {
-                const size_t here = (size_t)i + 2 * (size_t)(mode - first) * chunk;
-                const double f[2] = {m->constants[2 * mode] + force[here],
-                                     m->constants[2 * mode + 1] + force[here + chunk]};
-                const double df[2] = {slope[here], slope[here + chunk]};
-                strum_inclined_point *to =
-                    &at->out[(start + i) * (last - first) + mode - first];
-                from_force(m, &cable, mode, at->x[start + i], f, df, to);
-                if (from_strain(m, mode)) /* q_0 lacks its value at x = 0 */
-                    to->longitudinal = along[i + (mode - first) * most] +
-                                       M_SQRT1_2 * stretch[(size_t)(mode - first) * size];
-            }
+            put_point(m, at, start, i, &t);
     }
-    return STRUM_OK;
+    return status;
 }
 
 /* du/dx of all modes, without which a shape cannot be told. */
@@ -167,7 +204,7 @@ static strum_status solve(strum_inclined *m, work *w, strum_error *error)
     if (status != STRUM_OK)
         return status;
     strum_spectrum *spectrum;
-    status = strum_modes_solve(&cable, STRUM_IN_PLANE, m->count, true, &spectrum, error);
+    status = spectrum_unscaled(&cable, m->count, &spectrum, error);
     if (status != STRUM_OK) {
         if (error != NULL) /* a parameter of that call is none of ours */
             error->argument = 0;

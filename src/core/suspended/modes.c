@@ -266,7 +266,7 @@ static strum_status number_modes(strum_spectrum *sp)
         sp->modes[i] = (strum_mode){.frequency = cimag(sp->roots[i].s),
                                     .decay = 0 - creal(sp->roots[i].s),
                                     .symmetry = sp->roots[i].symmetry};
-    if (!sp->shapes)
+    if (!sp->shapes || sp->unscaled)
         return STRUM_OK;
     sp->factors = arena_doubles(&sp->memory, 4 * (size_t)sp->size);
     if (sp->factors == NULL)
@@ -340,8 +340,8 @@ static strum_status solve(strum_spectrum *sp, int count, strum_error *fault)
         sp->difference, tolerance, sp->size);
 }
 
-strum_status strum_modes_solve(const strum_cable *cable, strum_plane plane, int count,
-                               bool shapes, strum_spectrum **spectrum, strum_error *fault)
+static strum_status make(const strum_cable *cable, strum_plane plane, int count, bool shapes,
+                         bool unscaled, strum_spectrum **spectrum, strum_error *fault)
 {
     *spectrum = NULL;
     strum_status status = spectrum_check_cable(cable, fault);
@@ -356,11 +356,24 @@ strum_status strum_modes_solve(const strum_cable *cable, strum_plane plane, int 
     sp->cable = *cable;
     sp->plane = plane;
     sp->shapes = shapes;
+    sp->unscaled = unscaled;
     status = solve(sp, count, fault);
     if (status != STRUM_OK)
         strum_spectrum_free(&sp);
     *spectrum = sp;
     return status;
+}
+
+strum_status strum_modes_solve(const strum_cable *cable, strum_plane plane, int count,
+                               bool shapes, strum_spectrum **spectrum, strum_error *fault)
+{
+    return make(cable, plane, count, shapes, false, spectrum, fault);
+}
+
+strum_status spectrum_unscaled(const strum_cable *cable, int count, strum_spectrum **spectrum,
+                               strum_error *fault)
+{
+    return make(cable, STRUM_IN_PLANE, count, true, true, spectrum, fault);
 }
 
 double strum_modes_work(const strum_cable *cable, strum_plane plane, int count, bool shapes)

@@ -14,6 +14,7 @@ struct strum_spectrum {
     double difference; /* of two sizes */
     double tail;       /* of the shapes' coefficients */
     bool shapes;
+    bool unscaled; /* shapes without `factors` and `units` */
     int count, overdamped;
     strum_mode *modes;
     root *roots; /* of the modes; vectors NULL without shapes */
@@ -39,6 +40,11 @@ strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_pl
                             in_plane_form form, int size, int block, int want, bool vectors,
                             arena *a, root_list *list, root_list *inner,
                             in_plane_part *parts[3]);
+
+/* strum_modes_solve in plane, for a caller that makes shapes of the vectors by itself: what
+ * strum_spectrum_shape and strum_modes_verify need beside them is not found. */
+strum_status spectrum_unscaled(const strum_cable *cable, int count, strum_spectrum **spectrum,
+                               strum_error *fault);
 
 /* Splits `list` into roots that oscillate (ascending frequency, at most `count`) and decay
  * rates (ascending); arrays are the arena's. Roots beyond what damping can reach are rounding
