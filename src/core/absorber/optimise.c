@@ -7,6 +7,7 @@
 
 #include "core/absorber/climb.h"
 #include "core/absorber/search.h"
+#include "core/numerics/peak.h"
 #include "core/numerics/status.h"
 
 /* Local searches that begin, at most. */
@@ -18,30 +19,19 @@
 #define SCAN_MAX (SCAN * STRUM_ABSORBER_VARIABLES_MAX)
 /* Climbs that lead to the best optimum before it is believed to be the best of all. */
 #define CONFIRMED 3
+static double trial(void *data, double t)
+{
+    return search_trial(data, &t);
+}
+
 /* Golden section about a place of a scan in one variable, down to a width. */
 static double climb_one(search *s, double *t, double step, double width)
 {
-    const double golden = 0.6180339887498949;
-    double low = fmax(*t - step, 0), high = fmin(*t + step, 1);
-    double left = high - golden * (high - low), right = low + golden * (high - low);
-    double at_left = search_trial(s, &left), at_right = search_trial(s, &right);
-    while (high - low > width && search_goes_on(s)) {
-        if (at_left > at_right) {
-            high = right;
-            right = left;
-            at_right = at_left;
-            left = high - golden * (high - low);
-            at_left = search_trial(s, &left);
-        } else {
-            low = left;
-            left = right;
-            at_left = at_right;
-            right = low + golden * (high - low);
-            at_right = search_trial(s, &right);
-        }
-    }
-    *t = at_left > at_right ? left : right;
-    return fmax(at_left, at_right);
+    golden g = golden_begin(trial, s, fmax(*t - step, 0), fmin(*t + step, 1));
+    while (g.high - g.low > width && search_goes_on(s))
+        golden_step(&g, trial, s);
+    *t = g.at_left > g.at_right ? g.left : g.right;
+    return fmax(g.at_left, g.at_right);
 }
 
 typedef struct place {

@@ -1,21 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The 4 x 4 determinant of the report's chapter 2, errata mended (units L = M = T_a = 1):
- *   w = K v + (C3 cos W - C4 sin W)/q,      u = v'/h + (K q/omega)(C3 sin W + C4 cos W),
- *   T = -omega^2 v,   v'' = -Q(s) v,        q = T0^(1/4), W = omega INT T0^(-1/2) ds,
- * K the curvature, Q = h epsilon^2 cos^2(phi_a) (kL^2/lambda^2 - 1 + 4 epsilon sin(phi_a)(s -
- * c)), c = 1/2 by (17), (18), or s_a for Q's tangent there. v is the slow pair: Ai(-z), Bi(-z)
- * combined; as a power series of s it neither overflows nor loses its sense as Q's slope goes
- * to zero with the inclination.
+ *     w = K v + (C3 cos W - C4 sin W)/q
+ *     u = v'/h + (K q/omega)(C3 sin W + C4 cos W)
+ *     T = -omega^2 v
+ *     v'' = -Q(s) v
+ *     q = T0^(1/4)
+ *     W = omega INT T0^(-1/2) ds
+ *     Q = h epsilon^2 cos^2(phi_a) (kL^2/lambda^2 - 1 + 4 epsilon sin(phi_a)(s - c))
+ * with K the curvature, and c = 1/2 by (17), (18), or s_a for Q's tangent there. v is the slow
+ * pair: Ai(-z), Bi(-z) combined; as a power series of s it neither overflows nor loses its
+ * sense as Q's slope goes to zero with the inclination.
  *
- * w = u = 0 at s = 0 gives (v, v') = -G0 y with y = (C3, C4), G = diag(1/(q K), h K q/omega);
- * at s = 1 it gives (v, v') = -G1 R(W) y. With F the transfer of (v, v'), the determinant
- * vanishes where det(P - R(W)) = 0, P = G1^-1 F G0. P and R have determinant 1, so that P R^-1
- * turns by an angle, lifted from det = 1 to whole turns: theta = W + the turns of P. Zeros come
- * in pairs, one where its trace rises through 2 and one where it falls again, at each whole
- * turn. So the number of zeros below a frequency is known from theta and the sign of the
- * determinant alone, the pair of an exact crossing included; the pair at no turn at all is the
- * spurious low root and its mirror image.
+ * w = u = 0 at both ends gives
+ *     (v, v') = -G0 y        at s = 0, y = (C3, C4), G = diag(1/(q K), h K q/omega)
+ *     (v, v') = -G1 R(W) y   at s = 1
+ * With F the transfer of (v, v'), the determinant vanishes where
+ *     det(P - R(W)) = 0,     P = G1^-1 F G0
+ * P and R have determinant 1, so that P R^-1 turns by an angle, lifted from det = 1 to whole
+ * turns:
+ *     theta = W + the turns of P
+ * Zeros come in pairs, one where its trace rises through 2 and one where it falls again, at
+ * each whole turn. So the number of zeros below a frequency is known from theta and the sign of
+ * the determinant alone, the pair of an exact crossing included; the pair at no turn at all is
+ * the spurious low root and its mirror image.
  */
 #include <complex.h>
 #include <math.h>

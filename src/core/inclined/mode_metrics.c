@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "core/inclined/statics.h"
+#include "core/numerics/peak.h"
 
 enum { TRANSVERSE, LONGITUDINAL, TENSION };
 
@@ -101,34 +102,29 @@ static double interpolated(const survey *s, int mode, int component, int i, doub
     return above / below;
 }
 
+/* A component of a mode about sample `i`. */
+typedef struct nearby {
+    const survey *s;
+    int mode, component, i;
+} nearby;
+
+static double magnitude(void *data, double t)
+{
+    const nearby *n = data;
+    return fabs(interpolated(n->s, n->mode, n->component, n->i, t));
+}
+
 /* Where, in steps from sample `i`, its polynomial has the largest magnitude (golden section). A
  * tension that falls steeply enough from a support has its peak between that and the first
  * sample. */
 static double top_of(const survey *s, int mode, int component, int i)
 {
-    const double golden = 0.6180339887498949;
-    double low = i > 0 ? -1 : 0, high = i < s->points - 1 ? 1 : 0;
-    double left = high - golden * (high - low), right = low + golden * (high - low);
-    double at_left = fabs(interpolated(s, mode, component, i, left));
-    double at_right = fabs(interpolated(s, mode, component, i, right));
+    nearby n = {s, mode, component, i};
+    golden g = golden_begin(magnitude, &n, i > 0 ? -1 : 0, i < s->points - 1 ? 1 : 0);
     for (int pass = 0; pass < 32; pass++)
-        if (at_left > at_right) {
-            high = right;
-            right = left;
-            at_right = at_left;
-            left = high - golden * (high - low);
-            at_left = fabs(interpolated(s, mode, component, i, left));
-        } else {
-            low = left;
-            left = right;
-            at_left = at_right;
-            right = low + golden * (high - low);
-            at_right = fabs(interpolated(s, mode, component, i, right));
-        }
-    const double top = (low + high) / 2;
-    return fabs(interpolated(s, mode, component, i, top)) > fabs(sampled(s, mode, component, i))
-               ? top
-               : 0;
+        golden_step(&g, magnitude, &n);
+    const double top = (g.low + g.high) / 2;
+    return magnitude(&n, top) > fabs(sampled(s, mode, component, i)) ? top : 0;
 }
 
 /* The largest value of a component along the cable, with its sign; of values that agree to 1e-9
