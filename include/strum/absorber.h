@@ -105,7 +105,8 @@ strum_status strum_absorber_solve(const strum_absorber_params *params,
                                   strum_error *error);
 
 /* The roots that matter at given values, by the same rule (branches or band), found anew; the
- * caller frees them. */
+ * caller frees them. Errors are those of `build` and of strum_taut_solve, with their arguments
+ * (taut.h); `*roots` stays as it was then. */
 strum_status strum_absorber_roots(const strum_absorber_params *params,
                                   const strum_options *options, const double *values,
                                   strum_taut_roots **roots, strum_error *error);

@@ -42,6 +42,15 @@ void search_values(const strum_absorber_params *p, const double *t, double *valu
     }
 }
 
+/* What is left of the work for one trial. */
+static strum_options rest_of(const work *w)
+{
+    strum_options rest = w->options;
+    if (rest.work_max > 0)
+        rest.work_max = fmax(rest.work_max - w->done, 1);
+    return rest;
+}
+
 static strum_status roots_of(const strum_absorber_params *p, const strum_options *options,
                              const strum_taut *chain, const strum_taut_roots *guesses,
                              strum_taut_roots **roots, strum_error *error)
@@ -79,11 +88,10 @@ strum_status strum_absorber_roots(const strum_absorber_params *p, const strum_op
                                   const double *values, strum_taut_roots **roots,
                                   strum_error *error)
 {
-    const work w = work_begin(options);
     strum_taut *chain = NULL;
     strum_status status = p->build(p->context, values, &chain, error);
     if (status == STRUM_OK)
-        status = roots_of(p, &w.options, chain, NULL, roots, error);
+        status = roots_of(p, options, chain, NULL, roots, error);
     strum_taut_free(&chain);
     return status;
 }
@@ -123,13 +131,14 @@ strum_taut *search_chain(search *s, const double *t)
 strum_taut_roots *search_roots(search *s, const double *t, double beyond)
 {
     strum_absorber_params wider = *s->params;
+    const strum_options rest = rest_of(&s->work);
     strum_taut_roots *roots = NULL;
     strum_taut *chain = search_chain(s, t);
     if (chain == NULL)
         return NULL;
     wider.lowest = fmax(wider.lowest - beyond, 0.5 * wider.lowest);
     wider.highest += beyond;
-    note_status(s, roots_of(&wider, &s->work.options, chain, s->last, &roots, s->error));
+    note_status(s, roots_of(&wider, &rest, chain, s->last, &roots, s->error));
     strum_taut_free(&chain);
     return roots;
 }
@@ -139,13 +148,14 @@ strum_taut_roots *search_roots(search *s, const double *t, double beyond)
 double search_trial(search *s, const double *t)
 {
     const strum_absorber_params *p = s->params;
+    const strum_options rest = rest_of(&s->work);
     double objective = 0;
     if (!search_goes_on(s))
         return 0;
     strum_taut *chain = search_chain(s, t);
     strum_taut_roots *roots = NULL;
     if (chain != NULL)
-        note_status(s, roots_of(p, &s->work.options, chain, s->last, &roots, s->error));
+        note_status(s, roots_of(p, &rest, chain, s->last, &roots, s->error));
     strum_taut_free(&chain);
     if (roots != NULL) {
         const int limiting = strum_absorber_limiting(roots);
