@@ -45,10 +45,10 @@ static long ours, report_trials, calls, rounds, hopped, asked;
 static void optimum(void *data)
 {
     (void)data;
-    const strum_absorber_problem problem = {2, low, high, build, NULL, NULL,
-                                            0, 0.5, 7,    20000, NULL, NULL};
+    const strum_absorber_params problem = {2, low, high, build, NULL, NULL,
+                                           0, 0.5, 7,    20000, NULL};
     strum_absorber_optimum best;
-    if (strum_absorber_optimize(&problem, &best, NULL) != STRUM_OK)
+    if (strum_absorber_solve(&problem, NULL, &best, NULL) != STRUM_OK)
         exit(1);
     found = best.loss_ratio;
     ours = best.evaluations;

@@ -10,7 +10,7 @@
  * Where two roots coalesce neither is smooth, but the characteristic function is: the double
  * root itself becomes unknown, with F = dF/ds = 0 as conditions.
  */
-#include "core/absorber/absorber.h"
+#include "core/absorber/climb.h"
 
 #include <nlopt.h>
 #include <string.h>
@@ -75,7 +75,7 @@ static bool one_step(search *s, const double *t, const cplx *roots, int count, c
 /* The two places beside t along variable j; returns their distance. */
 static double beside(const search *s, const double *t, int j, double *lower, double *upper)
 {
-    const size_t size = (size_t)s->problem->variables * sizeof *t;
+    const size_t size = (size_t)s->params->variables * sizeof *t;
     memcpy(lower, t, size);
     memcpy(upper, t, size);
     lower[j] = fmax(t[j] - DIFFERENCE, 0.0);
@@ -88,7 +88,7 @@ static bool slopes(search *s, const double *t, const cplx *roots, int count,
 {
     double lower[VARIABLES], upper[VARIABLES];
     cplx at_lower[FOLLOWED_MAX], at_upper[FOLLOWED_MAX];
-    for (int j = 0; j < s->problem->variables; j++) {
+    for (int j = 0; j < s->params->variables; j++) {
         const double apart = beside(s, t, j, lower, upper);
         if (!one_step(s, lower, roots, count, at_lower) ||
             !one_step(s, upper, roots, count, at_upper))
@@ -110,7 +110,7 @@ static bool follow(climb *r, const double *t, cplx *s)
     for (int k = 0; k < r->count; k++) {
         const followed *root = &r->roots[k];
         cplx move = 0.0;
-        for (int j = 0; j < r->search->problem->variables; j++)
+        for (int j = 0; j < r->search->params->variables; j++)
             move += (t[j] - r->from[j]) * root->slope[j];
         if (cabs(move) > r->spacing)
             move *= r->spacing / cabs(move);
@@ -136,7 +136,7 @@ static double level_of(unsigned n, const double *x, double *gradient, void *data
 
 static double rule_value(const climb *r, const followed *root, cplx s, double level)
 {
-    const strum_absorber_problem *p = r->search->problem;
+    const strum_absorber_params *p = r->search->params;
     return root->rule == RULE_BELOW   ? (cimag(s) - p->lowest) / r->spacing + OUTSIDE
            : root->rule == RULE_ABOVE ? (p->highest - cimag(s)) / r->spacing + OUTSIDE
                                       : level - ratio_of(s) / r->level;
@@ -173,7 +173,7 @@ static void conditions(unsigned m, double *c, unsigned n, const double *x, doubl
         c[k] = s[k] == 0.0 ? -1.0 : rule_value(r, root, s[k], x[n - 1]);
         if (gradient == NULL || s[k] == 0.0)
             continue;
-        for (int j = 0; j < r->search->problem->variables; j++)
+        for (int j = 0; j < r->search->params->variables; j++)
             gradient[(unsigned)k * n + (unsigned)j] = rule_slope(r, root, s[k], ds[k][j]);
         if (root->rule == RULE_DAMPED)
             gradient[(unsigned)k * n + n - 1] = 1.0;
@@ -225,7 +225,7 @@ static void twin_conditions(unsigned m, double *c, unsigned n, const double *x,
     bool good = twin_value(r, x, s, here);
     if (good && gradient != NULL) {
         memset(gradient, 0, (size_t)m * n * sizeof *gradient);
-        for (int j = 0; j < r->search->problem->variables && good; j++) {
+        for (int j = 0; j < r->search->params->variables && good; j++) {
             const double apart = beside(r->search, x, j, lower, upper);
             good = twin_value(r, lower, s, low) && twin_value(r, upper, s, high);
             for (int k = 0; k < 2 && good; k++)
@@ -267,7 +267,7 @@ static bool before(const followed *a, const followed *b)
 static bool begin(climb *r, double level)
 {
     search *s = r->search;
-    const strum_absorber_problem *p = s->problem;
+    const strum_absorber_params *p = s->params;
     strum_taut *chain = search_chain(s, r->from);
     if (chain == NULL)
         return false;
@@ -307,7 +307,7 @@ static bool set_slopes(climb *r)
 /* The best place for the level within `reach` of r->from, into t. */
 static bool go(climb *r, double reach, double *t)
 {
-    const int variables = r->search->problem->variables;
+    const int variables = r->search->params->variables;
     const unsigned twin = r->twin != 0.0, n = (unsigned)variables + 2 * twin + 1;
     const unsigned m = (unsigned)r->count + twin;
     double x[VARIABLES + 3] = {0}, low[VARIABLES + 3], high[VARIABLES + 3], level;
@@ -358,7 +358,7 @@ static double most_apart(int n, const double *a, const double *b)
 /* Makes the two least damped roots one unknown, when they are close. */
 static bool make_twins(climb *r)
 {
-    if (r->search->problem->variables < 2 || r->count < 2 || r->roots[1].rule != RULE_DAMPED ||
+    if (r->search->params->variables < 2 || r->count < 2 || r->roots[1].rule != RULE_DAMPED ||
         !(cabs(r->roots[0].s - r->roots[1].s) < 0.1 * r->spacing))
         return false;
     cplx low[2], high[2];
@@ -376,7 +376,7 @@ static bool make_twins(climb *r)
 
 double absorber_climb(search *s, double *t, double reach, int rounds, double gain)
 {
-    const int n = s->problem->variables;
+    const int n = s->params->variables;
     double best = search_trial(s, t), at[VARIABLES], also[VARIABLES];
     for (; rounds > 0 && best > 0.0 && reach > 1e-10 && search_goes_on(s); rounds--) {
         climb r = {.search = s};

@@ -1,44 +1,52 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The 4 x 4 determinant of the report's chapter 2, errata mended (units L = M = T_a = 1):
- *   w = K v + (C3 cos W - C4 sin W)/q,      u = v'/h + (K q/omega)(C3 sin W + C4 cos W),
- *   T = -omega^2 v,   v'' = -Q(s) v,        q = T0^(1/4), W = omega INT T0^(-1/2) ds,
- * K the curvature, Q = h epsilon^2 cos^2(phi_a) (kL^2/lambda^2 - 1 + 4 epsilon sin(phi_a)(s -
- * c)), c = 1/2 by (17), (18), or s_a for Q's tangent there. v is the slow pair: Ai(-z), Bi(-z)
- * combined; as a power series of s it neither overflows nor loses its sense as Q's slope goes
- * to zero with the inclination.
+ *     w = K v + (C3 cos W - C4 sin W)/q
+ *     u = v'/h + (K q/omega)(C3 sin W + C4 cos W)
+ *     T = -omega^2 v
+ *     v'' = -Q(s) v
+ *     q = T0^(1/4)
+ *     W = omega INT T0^(-1/2) ds
+ *     Q = h epsilon^2 cos^2(phi_a) (kL^2/lambda^2 - 1 + 4 epsilon sin(phi_a)(s - c))
+ * with K the curvature, and c = 1/2 by (17), (18), or s_a for Q's tangent there. v is the slow
+ * pair: Ai(-z), Bi(-z) combined; as a power series of s it neither overflows nor loses its
+ * sense as Q's slope goes to zero with the inclination.
  *
- * w = u = 0 at s = 0 gives (v, v') = -G0 y with y = (C3, C4), G = diag(1/(q K), h K q/omega);
- * at s = 1 it gives (v, v') = -G1 R(W) y. With F the transfer of (v, v'), the determinant
- * vanishes where det(P - R(W)) = 0, P = G1^-1 F G0. P and R have determinant 1, so that P R^-1
- * turns by an angle, lifted from det = 1 to whole turns: theta = W + the turns of P. Zeros come
- * in pairs, one where its trace rises through 2 and one where it falls again, at each whole
- * turn. So the number of zeros below a frequency is known from theta and the sign of the
- * determinant alone, the pair of an exact crossing included; the pair at no turn at all is the
- * spurious low root and its mirror image.
+ * w = u = 0 at both ends gives
+ *     (v, v') = -G0 y        at s = 0, y = (C3, C4), G = diag(1/(q K), h K q/omega)
+ *     (v, v') = -G1 R(W) y   at s = 1
+ * With F the transfer of (v, v'), the determinant vanishes where
+ *     det(P - R(W)) = 0,     P = G1^-1 F G0
+ * P and R have determinant 1, so that P R^-1 turns by an angle, lifted from det = 1 to whole
+ * turns:
+ *     theta = W + the turns of P
+ * Zeros come in pairs, one where its trace rises through 2 and one where it falls again, at
+ * each whole turn. So the number of zeros below a frequency is known from theta and the sign of
+ * the determinant alone, the pair of an exact crossing included; the pair at no turn at all is
+ * the spurious low root and its mirror image.
  */
 #include <complex.h>
 #include <math.h>
 
+#include "core/inclined/approximation.h"
+#include "core/inclined/statics.h"
 #include "core/numerics/bracket.h"
-#include "core/inclined/inclined.h"
 
 typedef double _Complex complex2[2][2];
 
 /* Q at s, for frequency kl. */
-static double _Complex stiffness_deficit(const strum_inclined_modes *m, double _Complex kl,
-                                         double s)
+static double _Complex stiffness_deficit(const strum_inclined *m, double _Complex kl, double s)
 {
-    const strum_inclined *c = &m->cable;
+    const strum_inclined_cable *c = &m->cable;
     const double slope = c->epsilon * cos(c->inclination);
-    const double centre = m->model == STRUM_INCLINED_AIRY ? 0.5 : m->statics.s_a;
+    const double centre = m->kind == STRUM_INCLINED_AIRY ? 0.5 : m->statics.s_a;
     return c->mass_ratio * slope * slope *
            (kl * kl / c->lambda_squared - 1 +
             4 * c->epsilon * sin(c->inclination) * (s - centre));
 }
 
 /* (v, v') from `from` to `to` by Taylor series; |Q| width^2 is at most 1/4. */
-static void advance(const strum_inclined_modes *m, double _Complex kl, double from, double to,
+static void advance(const strum_inclined *m, double _Complex kl, double from, double to,
                     double _Complex state[2])
 {
     const double h = to - from;
@@ -59,13 +67,13 @@ static void advance(const strum_inclined_modes *m, double _Complex kl, double fr
 }
 
 /* Largest wave number of v from 0 to `to`. */
-static double steepest(const strum_inclined_modes *m, double _Complex kl, double to)
+static double steepest(const strum_inclined *m, double _Complex kl, double to)
 {
     return sqrt(fmax(cabs(stiffness_deficit(m, kl, 0)), cabs(stiffness_deficit(m, kl, to))));
 }
 
 /* Steps from 0 to `to` that `advance` can take. */
-static int steps_to(const strum_inclined_modes *m, double _Complex kl, double to)
+static int steps_to(const strum_inclined *m, double _Complex kl, double to)
 {
     return to > 0 ? (int)ceil(2 * to * steepest(m, kl, to)) + 1 : 0;
 }
@@ -78,8 +86,7 @@ static double turn(complex2 a)
 
 /* Transfer of (v, v') along the whole cable; `turns` (may be NULL) gets the lifted angle in
  * units in which no step turns it by much. */
-static void transfer(const strum_inclined_modes *m, double _Complex kl, complex2 out,
-                     double *turns)
+static void transfer(const strum_inclined *m, double _Complex kl, complex2 out, double *turns)
 {
     const int steps = steps_to(m, kl, 1);
     const double unit = fmax(1, steepest(m, kl, 1));
@@ -102,7 +109,7 @@ static void transfer(const strum_inclined_modes *m, double _Complex kl, complex2
 }
 
 /* G at either end. */
-static void units_at(const strum_inclined_modes *m, double _Complex kl, bool top,
+static void units_at(const strum_inclined *m, double _Complex kl, bool top,
                      double _Complex g[2])
 {
     const double q = pow(top ? m->statics.tension_top : m->statics.tension_bottom, 0.25);
@@ -112,8 +119,7 @@ static void units_at(const strum_inclined_modes *m, double _Complex kl, bool top
 }
 
 /* P - R(W); `turns` (may be NULL) gets theta. */
-static void end_matrix(const strum_inclined_modes *m, double _Complex kl, complex2 out,
-                       double *turns)
+static void end_matrix(const strum_inclined *m, double _Complex kl, complex2 out, double *turns)
 {
     double _Complex g0[2], g1[2];
     units_at(m, kl, false, g0);
@@ -137,7 +143,7 @@ static double _Complex determinant(complex2 a)
     return a[0][0] * a[1][1] - a[0][1] * a[1][0];
 }
 
-double _Complex inclined_airy_function(const strum_inclined_modes *m, double _Complex kl)
+static double _Complex characteristic(const strum_inclined *m, double _Complex kl)
 {
     complex2 a;
     end_matrix(m, kl, a, NULL);
@@ -146,11 +152,11 @@ double _Complex inclined_airy_function(const strum_inclined_modes *m, double _Co
 
 static double real_function(double kl, const void *data)
 {
-    return creal(inclined_airy_function(data, kl));
+    return creal(characteristic(data, kl));
 }
 
 /* Zeros below kl, the spurious one not counted (-1: below that one). */
-static int zeros_below(const strum_inclined_modes *m, double kl)
+static int zeros_below(const strum_inclined *m, double kl)
 {
     complex2 a;
     double theta;
@@ -162,7 +168,7 @@ static int zeros_below(const strum_inclined_modes *m, double kl)
 /* The vector y that P - R(W) maps to nothing. At the exact crossing of a level cable every y
  * is one; there the symmetric and the antisymmetric one are taken, whichever fits better, and
  * the other one for the second mode. */
-static void find_vector(const strum_inclined_modes *m, inclined_wave *wave,
+static void find_vector(const strum_inclined *m, inclined_wave *wave,
                         const inclined_wave *before)
 {
     complex2 a;
@@ -190,7 +196,7 @@ static void find_vector(const strum_inclined_modes *m, inclined_wave *wave,
 }
 
 /* The zero number k (from 1), which lies above `low`. */
-static double zero(const strum_inclined_modes *m, int k, double low)
+static double zero(const strum_inclined *m, int k, double low)
 {
     while (real_function(low, m) == 0) /* a zero found before */
         low *= 1 + 4e-16;
@@ -213,13 +219,23 @@ static double zero(const strum_inclined_modes *m, int k, double low)
     return high;
 }
 
-strum_status inclined_airy_roots(const strum_inclined_modes *m, int count, inclined_wave *waves,
-                                 double *spurious)
+/* Measured: the roots, and the shapes sampled for their maxima and energies. */
+static double work_us(const strum_cable *mechanics, int count, double size)
+{
+    (void)mechanics;
+    return count * (80 + 0.01 * size * size);
+}
+
+static strum_status roots(const strum_inclined *m, int count, inclined_wave *waves,
+                          double *spurious, work *w)
 {
     double low = 0.05 * M_PI * inclined_spacing(m);
     while (zeros_below(m, low) > 0)
         low /= 2;
     for (int k = 1; k <= count; k++) {
+        const strum_status status = work_spend(w, work_us(NULL, 1, m->size));
+        if (status != STRUM_OK)
+            return status;
         waves[k - 1] = (inclined_wave){.kl = zero(m, k, low)};
         find_vector(m, &waves[k - 1], k > 1 ? &waves[k - 2] : NULL);
         if (zeros_below(m, waves[k - 1].kl) <= k)
@@ -235,8 +251,8 @@ strum_status inclined_airy_roots(const strum_inclined_modes *m, int count, incli
     return STRUM_OK;
 }
 
-void inclined_airy_sample(const strum_inclined_modes *m, const inclined_wave *wave, double x,
-                          double phase, strum_inclined_point *out)
+static void sample(const strum_inclined *m, const inclined_wave *wave, double x, double phase,
+                   strum_inclined_point *out)
 {
     const strum_catenary *p = &m->statics.profile;
     const double kl = wave->kl, c = cosh(p->chi_m + mapping_offset(&m->along, x));
@@ -254,3 +270,27 @@ void inclined_airy_sample(const strum_inclined_modes *m, const inclined_wave *wa
                         curvature * q / kl * (wave->fast[0] * sine + wave->fast[1] * cosine);
     out->tension = -kl * kl * v;
 }
+
+const inclined_model inclined_airy = {
+    .name = "airy",
+    .expansion = true,
+    .has_longitudinal = true,
+    APPROXIMATION,
+    .work_us = work_us,
+    .roots = roots,
+    .function = characteristic,
+    .sample = sample,
+    .wants_phase = true,
+};
+
+const inclined_model inclined_airy_tangent = {
+    .name = "airy, tangent at s_a",
+    .expansion = true,
+    .has_longitudinal = true,
+    APPROXIMATION,
+    .work_us = work_us,
+    .roots = roots,
+    .function = characteristic,
+    .sample = sample,
+    .wants_phase = true,
+};

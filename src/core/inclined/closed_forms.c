@@ -12,20 +12,20 @@
 
 #include <strum/handbook.h>
 
+#include "core/inclined/approximation.h"
 #include "core/numerics/bracket.h"
-#include "core/inclined/inclined.h"
 
 typedef struct closed {
     double four;     /* 4/lambda^2; 0: inextensible */
     double coupling; /* (49/64) epsilon^2 sin^2(phi_a), 0 for (11) */
 } closed;
 
-static closed closed_of(const strum_inclined_modes *m)
+static closed closed_of(const strum_inclined *m)
 {
     const double slope = m->cable.epsilon * sin(m->cable.inclination);
     return (closed){.four = 4 / m->cable.lambda_squared,
                     .coupling =
-                        m->model == STRUM_INCLINED_ASYMPTOTIC ? 49.0 / 64 * slope * slope : 0};
+                        m->kind == STRUM_INCLINED_ASYMPTOTIC ? 49.0 / 64 * slope * slope : 0};
 }
 
 static double characteristic(double x, const void *data)
@@ -34,7 +34,7 @@ static double characteristic(double x, const void *data)
     return sin(x) * (sin(x) + x * cos(x) * (c->four * x * x - 1)) - c->coupling * cos(2 * x);
 }
 
-double _Complex inclined_closed_function(const strum_inclined_modes *m, double _Complex kl)
+static double _Complex analytic(const strum_inclined *m, double _Complex kl)
 {
     const closed c = closed_of(m);
     const double _Complex x = kl / 2, s = csin(x);
@@ -53,10 +53,17 @@ static inclined_wave next_uncoupled(double lambda_squared, int *sines, int *othe
                            .symmetry = antisymmetric ? STRUM_ANTISYMMETRIC : STRUM_SYMMETRIC};
 }
 
+/* Measured, as for Airy's. */
+static double work_us(const strum_cable *mechanics, int count, double size)
+{
+    (void)mechanics;
+    return count * (25 + 0.001 * size * size);
+}
+
 /* (21) has one root between the midpoints of neighbouring roots of (11), and one more, which no
  * cable has, below them all: at x = 0 the coupling alone remains. */
-strum_status inclined_closed_roots(const strum_inclined_modes *m, int count,
-                                   inclined_wave *waves, double *spurious)
+static strum_status roots(const strum_inclined *m, int count, inclined_wave *waves,
+                          double *spurious, work *w)
 {
     const closed c = closed_of(m);
     int sines = 0, others = 0;
@@ -66,6 +73,9 @@ strum_status inclined_closed_roots(const strum_inclined_modes *m, int count,
     if (c.coupling > 0 && characteristic(low, &c) > 0)
         *spurious = 2 * bracket_root(characteristic, &c, 0, low);
     for (int i = 0; i < count; i++) {
+        const strum_status status = work_spend(w, work_us(NULL, 1, m->size));
+        if (status != STRUM_OK)
+            return status;
         const inclined_wave next = next_uncoupled(m->cable.lambda_squared, &sines, &others);
         const double high = (here.kl + next.kl) / 4;
         waves[i] = here;
@@ -98,9 +108,11 @@ static void uncoupled_sample(const inclined_wave *wave, double slope, strum_incl
     out->tension = kl * kl / slope;
 }
 
-void inclined_closed_sample(const strum_inclined_modes *m, const inclined_wave *wave,
-                            strum_inclined_point *out)
+static void sample(const strum_inclined *m, const inclined_wave *wave, double x, double phase,
+                   strum_inclined_point *out)
 {
+    (void)x;
+    (void)phase;
     const double slope = m->cable.epsilon * cos(m->cable.inclination);
     if (wave->symmetry != STRUM_NO_SYMMETRY) {
         uncoupled_sample(wave, slope, out);
@@ -125,3 +137,25 @@ void inclined_closed_sample(const strum_inclined_modes *m, const inclined_wave *
         slope / kl * (bracket * (cos_s - 1) + twice * (excess * s + sin_s) + 1.75 * e * sin_s);
     out->tension = kl * kl * (twice + 1.75 * e) / slope; /* (38) */
 }
+
+const inclined_model inclined_asymptotic = {
+    .name = "asymptotic",
+    .expansion = true,
+    .has_longitudinal = false,
+    APPROXIMATION,
+    .work_us = work_us,
+    .roots = roots,
+    .function = analytic,
+    .sample = sample,
+};
+
+const inclined_model inclined_irvine = {
+    .name = "irvine",
+    .expansion = false,
+    .has_longitudinal = false,
+    APPROXIMATION,
+    .work_us = work_us,
+    .roots = roots,
+    .function = analytic,
+    .sample = sample,
+};

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is read off a mode's shape: energies, largest values, sign; and the shape itself. */
+/* What is read off a mode's shape: energies, largest values, sign. */
+#include "core/inclined/mode_metrics.h"
+
 #include <math.h>
 
-#include "core/inclined/inclined.h"
+#include "core/inclined/statics.h"
+#include "core/numerics/peak.h"
 
 enum { TRANSVERSE, LONGITUDINAL, TENSION };
 
@@ -18,7 +21,7 @@ typedef struct energies {
     double transverse, longitudinal, mirrored;
 } energies;
 
-static strum_status find_energies(const strum_inclined_modes *m, energies *e, arena *a)
+static strum_status find_energies(const strum_inclined *m, energies *e, arena *a, work *w)
 {
     legendre b;
     const strum_catenary *p = &m->statics.profile;
@@ -33,33 +36,36 @@ static strum_status find_energies(const strum_inclined_modes *m, energies *e, ar
     strum_inclined_point *mirrored = at + points * count;
     for (size_t i = 0; i < points; i++)
         mirror[i] = inclined_x_of_s(m, 1 - inclined_s_of_x(m, b.x[i]));
-    status = inclined_sample(m, 0, m->count, b.points, b.x, at, a);
+    status = m->model->evaluate(m, &(inclined_samples){0, m->count, b.points, b.x, at}, a, w);
     if (status == STRUM_OK)
-        status = inclined_sample(m, 0, m->count, b.points, mirror, mirrored, a);
+        status = m->model->evaluate(
+            m, &(inclined_samples){0, m->count, b.points, mirror, mirrored}, a, w);
     for (size_t i = 0; status == STRUM_OK && i < points * count; i++) {
         const size_t point = i / count, mode = i % count;
         const double x = b.x[point];
         const double ds = b.w[point] * mapping_slope(&m->along, x) / m->length *
                           cosh(p->chi_m + mapping_offset(&m->along, x));
-        const double w = at[i].transverse, u = at[i].longitudinal;
-        e[mode].transverse += ds * w * w;
-        e[mode].longitudinal += ds * u * u * m->cable.mass_ratio;
-        e[mode].mirrored += ds * w * mirrored[i].transverse;
+        const double across = at[i].transverse, along = at[i].longitudinal;
+        e[mode].transverse += ds * across * across;
+        e[mode].longitudinal += ds * along * along * m->cable.mass_ratio;
+        e[mode].mirrored += ds * across * mirrored[i].transverse;
     }
     return status;
 }
 
 /* All modes at equally spaced x, six or more samples a half wave. */
 typedef struct survey {
-    const strum_inclined_modes *m;
+    const strum_inclined *m;
+    work *work;
     int points;
     double *x;
     strum_inclined_point *at; /* at[i * count + mode] */
 } survey;
 
-static strum_status survey_make(const strum_inclined_modes *m, arena *a, survey *s)
+static strum_status survey_make(const strum_inclined *m, arena *a, work *w, survey *s)
 {
     s->m = m;
+    s->work = w;
     s->points = 4 * m->size + 1;
     const size_t points = (size_t)s->points;
     s->x = arena_doubles(a, points);
@@ -68,7 +74,8 @@ static strum_status survey_make(const strum_inclined_modes *m, arena *a, survey 
         return STRUM_ERR_MEMORY;
     for (size_t i = 0; i < points; i++)
         s->x[i] = 2.0 * (double)i / (double)(points - 1) - 1;
-    return inclined_sample(m, 0, m->count, s->points, s->x, s->at, a);
+    return m->model->evaluate(m, &(inclined_samples){0, m->count, s->points, s->x, s->at}, a,
+                              w);
 }
 
 static double sampled(const survey *s, int mode, int component, int i)
@@ -95,34 +102,29 @@ static double interpolated(const survey *s, int mode, int component, int i, doub
     return above / below;
 }
 
+/* A component of a mode about sample `i`. */
+typedef struct nearby {
+    const survey *s;
+    int mode, component, i;
+} nearby;
+
+static double magnitude(void *data, double t)
+{
+    const nearby *n = data;
+    return fabs(interpolated(n->s, n->mode, n->component, n->i, t));
+}
+
 /* Where, in steps from sample `i`, its polynomial has the largest magnitude (golden section). A
  * tension that falls steeply enough from a support has its peak between that and the first
  * sample. */
 static double top_of(const survey *s, int mode, int component, int i)
 {
-    const double golden = 0.6180339887498949;
-    double low = i > 0 ? -1 : 0, high = i < s->points - 1 ? 1 : 0;
-    double left = high - golden * (high - low), right = low + golden * (high - low);
-    double at_left = fabs(interpolated(s, mode, component, i, left));
-    double at_right = fabs(interpolated(s, mode, component, i, right));
+    nearby n = {s, mode, component, i};
+    golden g = golden_begin(magnitude, &n, i > 0 ? -1 : 0, i < s->points - 1 ? 1 : 0);
     for (int pass = 0; pass < 32; pass++)
-        if (at_left > at_right) {
-            high = right;
-            right = left;
-            at_right = at_left;
-            left = high - golden * (high - low);
-            at_left = fabs(interpolated(s, mode, component, i, left));
-        } else {
-            low = left;
-            left = right;
-            at_left = at_right;
-            right = low + golden * (high - low);
-            at_right = fabs(interpolated(s, mode, component, i, right));
-        }
-    const double top = (low + high) / 2;
-    return fabs(interpolated(s, mode, component, i, top)) > fabs(sampled(s, mode, component, i))
-               ? top
-               : 0;
+        golden_step(&g, magnitude, &n);
+    const double top = (g.low + g.high) / 2;
+    return magnitude(&n, top) > fabs(sampled(s, mode, component, i)) ? top : 0;
 }
 
 /* The largest value of a component along the cable, with its sign; of values that agree to 1e-9
@@ -149,8 +151,8 @@ static strum_status largest(const survey *s, int mode, int component, double *be
             strum_inclined_point p;
             const double x = s->x[i] + t * (s->x[1] - s->x[0]);
             arena scratch = {0};
-            const strum_status status =
-                inclined_sample(s->m, mode, mode + 1, 1, &x, &p, &scratch);
+            const strum_status status = s->m->model->evaluate(
+                s->m, &(inclined_samples){mode, mode + 1, 1, &x, &p}, &scratch, s->work);
             arena_free(&scratch);
             if (status != STRUM_OK)
                 return status;
@@ -163,7 +165,7 @@ static strum_status largest(const survey *s, int mode, int component, double *be
 static strum_status measure_mode(const survey *s, const energies *e, int mode,
                                  strum_inclined_mode *out, double *unit)
 {
-    const strum_inclined_modes *m = s->m;
+    const strum_inclined *m = s->m;
     double peak[3];
     for (int component = TRANSVERSE; component <= TENSION; component++) {
         const strum_status status = largest(s, mode, component, &peak[component]);
@@ -186,41 +188,16 @@ static strum_status measure_mode(const survey *s, const energies *e, int mode,
     return STRUM_OK;
 }
 
-strum_status inclined_measure(strum_inclined_modes *m)
+strum_status inclined_measure(strum_inclined *m, work *w)
 {
     arena scratch = {0};
     survey s = {0};
     energies *e = arena_alloc(&scratch, (size_t)m->count, sizeof *e);
-    strum_status status = e == NULL ? STRUM_ERR_MEMORY : find_energies(m, e, &scratch);
+    strum_status status = e == NULL ? STRUM_ERR_MEMORY : find_energies(m, e, &scratch, w);
     if (status == STRUM_OK)
-        status = survey_make(m, &scratch, &s);
+        status = survey_make(m, &scratch, w, &s);
     for (int i = 0; status == STRUM_OK && i < m->count; i++)
         status = measure_mode(&s, &e[i], i, &m->modes[i], &m->unit[i]);
-    arena_free(&scratch);
-    return status;
-}
-
-strum_status strum_inclined_shape(const strum_inclined_modes *m, int index, int points,
-                                  strum_inclined_point *shape)
-{
-    if (index < 0 || index >= m->count || points < 2)
-        return STRUM_ERR_RANGE;
-    arena scratch = {0};
-    double *x = arena_doubles(&scratch, (size_t)points);
-    for (int i = 0; x != NULL && i < points; i++)
-        x[i] = i == 0 ? -1 : i == points - 1 ? 1 : inclined_x_of_s(m, i / (points - 1.0));
-    const strum_status status =
-        x == NULL ? STRUM_ERR_MEMORY
-                  : inclined_sample(m, index, index + 1, points, x, shape, &scratch);
-    for (int i = 0; status == STRUM_OK && i < points; i++) {
-        shape[i].s = i / (points - 1.0);
-        shape[i].transverse /= m->unit[index];
-        shape[i].longitudinal /= m->unit[index];
-        shape[i].tension /= m->unit[index];
-        /* the force form meets the supports to rounding; (34) and (37) do not meet them */
-        if (fabs(x[i]) == 1 && m->model == STRUM_INCLINED_FULL)
-            shape[i].transverse = shape[i].longitudinal = 0;
-    }
     arena_free(&scratch);
     return status;
 }

@@ -2,7 +2,6 @@
 #include "core/numerics/peak.h"
 
 #include <math.h>
-#include <stdbool.h>
 
 /* Values closer than this are equal, and the first of them is the answer. */
 #define TIED 1e-12
@@ -58,33 +57,45 @@ double peak_largest(double *value, int samples, peak_refine refine, void *data, 
     return largest;
 }
 
-double peak_golden(double (*f)(void *data, double x), void *data, double low, double high,
-                   double *x)
+#define GOLDEN 0.6180339887498949
+
+golden golden_begin(golden_function f, void *data, double low, double high)
 {
-    const double golden = 0.6180339887498949;
-    double left = high - golden * (high - low), right = low + golden * (high - low);
-    double at_left = f(data, left), at_right = f(data, right);
-    for (int i = 0; i < 40; i++) {
-        const bool to_left = at_left >= at_right;
-        *(to_left ? &high : &low) = to_left ? right : left;
-        const double next =
-            to_left ? high - golden * (high - low) : low + golden * (high - low);
-        if (to_left) {
-            right = left;
-            at_right = at_left;
-            left = next;
-            at_left = f(data, left);
-        } else {
-            left = right;
-            at_left = at_right;
-            right = next;
-            at_right = f(data, right);
-        }
+    golden g = {.low = low, .high = high};
+    g.left = high - GOLDEN * (high - low);
+    g.right = low + GOLDEN * (high - low);
+    g.at_left = f(data, g.left);
+    g.at_right = f(data, g.right);
+    return g;
+}
+
+void golden_step(golden *g, golden_function f, void *data)
+{
+    if (g->at_left > g->at_right || (g->first && g->at_left == g->at_right)) {
+        g->high = g->right;
+        g->right = g->left;
+        g->at_right = g->at_left;
+        g->left = g->high - GOLDEN * (g->high - g->low);
+        g->at_left = f(data, g->left);
+    } else {
+        g->low = g->left;
+        g->left = g->right;
+        g->at_left = g->at_right;
+        g->right = g->low + GOLDEN * (g->high - g->low);
+        g->at_right = f(data, g->right);
     }
+}
+
+double peak_golden(golden_function f, void *data, double low, double high, double *x)
+{
+    golden g = golden_begin(f, data, low, high);
+    g.first = true;
+    for (int i = 0; i < 40; i++)
+        golden_step(&g, f, data);
     /* an end that is not passed is a support, and may be the place itself */
-    const double ends[] = {low, high};
-    *x = at_left >= at_right ? left : right;
-    double largest = fmax(at_left, at_right);
+    const double ends[] = {g.low, g.high};
+    *x = g.at_left >= g.at_right ? g.left : g.right;
+    double largest = fmax(g.at_left, g.at_right);
     for (int i = 0; i < 2; i++) {
         const double value = f(data, ends[i]);
         if (value > largest) {

@@ -267,7 +267,7 @@ static strum_status number_modes(strum_modes *sp)
         sp->modes[i] = (strum_mode){.frequency = cimag(sp->roots[i].s),
                                     .decay = 0 - creal(sp->roots[i].s),
                                     .symmetry = sp->roots[i].symmetry};
-    if (!sp->shapes)
+    if (!sp->shapes || sp->unscaled)
         return STRUM_OK;
     sp->factors = arena_doubles(&sp->memory, 4 * (size_t)sp->size);
     if (sp->factors == NULL)
@@ -343,8 +343,9 @@ static strum_status solve(strum_modes *sp, int count, strum_error *fault)
         sp->difference, tolerance, sp->size);
 }
 
-strum_status strum_modes_solve(const strum_modes_params *params, const strum_options *options,
-                               strum_modes **modes, strum_error *error)
+/* The modes by `params`, their work counted by `w`. */
+static strum_status make(const strum_modes_params *params, bool unscaled, work *w,
+                         strum_modes **modes, strum_error *error)
 {
     *modes = NULL;
     strum_status status = spectrum_check_cable(&params->cable, error);
@@ -356,11 +357,11 @@ strum_status strum_modes_solve(const strum_modes_params *params, const strum_opt
     strum_modes *sp = calloc(1, sizeof *sp);
     if (sp == NULL)
         return error_set(error, STRUM_ERR_MEMORY, "out of memory");
-    work spent = work_begin(options);
-    sp->memory.work = &spent;
+    sp->memory.work = w;
     sp->cable = params->cable;
     sp->plane = params->plane;
     sp->shapes = params->shapes;
+    sp->unscaled = unscaled;
     status = solve(sp, params->count, error);
     sp->memory.work = NULL; /* it ends here */
     if (status == STRUM_OK)
@@ -368,6 +369,20 @@ strum_status strum_modes_solve(const strum_modes_params *params, const strum_opt
     else
         strum_modes_free(sp);
     return status;
+}
+
+strum_status strum_modes_solve(const strum_modes_params *params, const strum_options *options,
+                               strum_modes **modes, strum_error *error)
+{
+    work w = work_begin(options);
+    return make(params, false, &w, modes, error);
+}
+
+strum_status spectrum_unscaled(const strum_cable *cable, int count, work *w,
+                               strum_modes **modes, strum_error *error)
+{
+    return make(&(strum_modes_params){*cable, STRUM_IN_PLANE, count, true}, true, w, modes,
+                error);
 }
 
 double strum_modes_work(const strum_modes_params *params)

@@ -4,6 +4,7 @@
 
 #include <strum/modes.h>
 
+#include "core/numerics/work.h"
 #include "core/suspended/roots.h"
 
 struct strum_modes {
@@ -14,6 +15,7 @@ struct strum_modes {
     double difference; /* of two sizes */
     double tail;       /* of the shapes' coefficients */
     bool shapes;
+    bool unscaled; /* shapes without `factors` and `units` */
     int count, overdamped;
     strum_mode *modes;
     root *roots; /* of the modes; vectors NULL without shapes */
@@ -39,6 +41,11 @@ strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_pl
                             in_plane_form form, int size, int block, int want, bool vectors,
                             arena *a, root_list *list, root_list *inner,
                             in_plane_part *parts[3]);
+
+/* strum_modes_solve in plane, for a caller that makes shapes of the vectors by itself: what
+ * strum_spectrum_shape and strum_modes_verify need beside them is not found. */
+strum_status spectrum_unscaled(const strum_cable *cable, int count, work *w,
+                               strum_modes **modes, strum_error *error);
 
 /* Splits `list` into roots that oscillate (ascending frequency, at most `count`) and decay
  * rates (ascending); arrays are the arena's. Roots beyond what damping can reach are rounding

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is said of an optimum: the modes there, whether they suffice, the closed forms beside
  * it, a sweep. */
+#include "endpoints/absorber/answer.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "endpoints/absorber/optimize.h"
 
 /* Modes within this of the least damped one limit it too: two branches cross at an optimum, or
  * coalesce. */
@@ -122,7 +122,7 @@ static strum_status write_form(json_writer *json, absorber_solving *s, const cha
     if (!set)
         return STRUM_OK;
     strum_taut_roots *roots = NULL;
-    strum_status status = strum_absorber_roots(&s->problem, values, &roots, NULL);
+    strum_status status = strum_absorber_roots(&s->params, &s->options, values, &roots, NULL);
     if (status == STRUM_ERR_MEMORY || status == STRUM_ERR_CANCELLED)
         return status;
     json_open_object(json);
@@ -252,7 +252,7 @@ static strum_status write_sweep(json_writer *json, absorber_solving *s,
     for (int64_t i = 0; i < points && status == STRUM_OK; i++) {
         rows[i].value = values[at] = strum_absorber_scale(
             r->low[at], r->high[at], (double)i / (double)(r->sweep.points - 1));
-        status = strum_absorber_roots(&s->problem, values, &rows[i].roots, NULL);
+        status = strum_absorber_roots(&s->params, &s->options, values, &rows[i].roots, NULL);
         all += rows[i].roots != NULL ? rows[i].roots->count : 0;
         if (answer_cancelled(s->a))
             status = STRUM_ERR_CANCELLED;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What asking for an absorber (absorber_optimize.c) and writing it down (absorber_answer.c)
- * share. */
-#ifndef ENDPOINTS_ABSORBER_OPTIMIZE_H
-#define ENDPOINTS_ABSORBER_OPTIMIZE_H
+/* A request for an absorber, read and prepared. */
+#ifndef ENDPOINTS_ABSORBER_REQUEST_H
+#define ENDPOINTS_ABSORBER_REQUEST_H
 
 #include <strum/absorber.h>
 
@@ -44,21 +43,9 @@ typedef struct absorber_request {
 
 extern const schema absorber_schema;
 
-typedef struct absorber_solving {
-    const absorber_request *r;
-    answer *a;
-    strum_absorber_problem problem;
-    double deadline;
-    bool late;
-} absorber_solving;
-
-/* From now on the problem may take so many seconds; `late` says whether it took more. */
-void absorber_allow(absorber_solving *s, double seconds);
+void absorber_prepare(void *request, schema_arena *arena, problem *p);
+double absorber_cost_us(const void *request);
 /* Index of a declared variable (the first of that name), or -1. */
 int absorber_variable_index(const absorber_request *r, const char *name);
-
-/* The result; false with a->problem set. */
-bool absorber_write(absorber_solving *s, const strum_absorber_optimum *best,
-                    const strum_taut_roots *roots);
 
 #endif
