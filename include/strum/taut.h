@@ -72,32 +72,45 @@ typedef struct strum_taut_joint {
     double force;                  /* N, > 0 */
 } strum_taut_joint;
 
+/* What each kind of component is made of. Types of their own: standard C++ allows none to be
+ * declared within a union without a name. */
+typedef struct strum_taut_cable {
+    double length, mass_per_length, drag; /* m > 0, kg/m >= 0, N s/m^2 >= 0 */
+} strum_taut_cable;
+
+typedef struct strum_taut_varying {
+    double length, mass_per_length; /* m > 0, kg/m > 0 */
+    bool wkb;                       /* Li's WKB matrix (A.2) instead of the exact solution */
+} strum_taut_varying;
+
+typedef struct strum_taut_body {
+    const strum_taut_link *links;   /* `count` of them, left to right */
+    const strum_taut_joint *joints; /* count - 1 */
+    size_t count;                   /* 1 .. STRUM_TAUT_LINKS_MAX */
+} strum_taut_body;
+
+typedef struct strum_taut_hanging {
+    double mass, stiffness, damping; /* damping may be INFINITY: a mass held fast */
+} strum_taut_hanging;
+
+typedef struct strum_taut_ground {
+    double stiffness, damping, inertance; /* N/m, N s/m, kg, >= 0 */
+} strum_taut_ground;
+
+typedef struct strum_taut_support {
+    double length, pivot, inertia; /* 0 < pivot < length from the left; about the pivot */
+} strum_taut_support;
+
 typedef struct strum_taut_component {
     strum_taut_kind kind;
     double tension_left, tension_right; /* N, > 0; not read for HANGING and GROUND */
     union {
-        struct {
-            double length, mass_per_length, drag; /* m > 0, kg/m >= 0, N s/m^2 >= 0 */
-        } cable;
-        struct {
-            double length, mass_per_length; /* m > 0, kg/m > 0 */
-            bool wkb; /* Li's WKB matrix (A.2) instead of the exact solution */
-        } varying;
-        struct {
-            const strum_taut_link *links;   /* `count` of them, left to right */
-            const strum_taut_joint *joints; /* count - 1 */
-            size_t count;                   /* 1 .. STRUM_TAUT_LINKS_MAX */
-        } body;
-        struct {
-            double mass, stiffness, damping; /* damping may be INFINITY: a mass held fast */
-        } hanging;
-        struct {
-            double stiffness, damping, inertance; /* N/m, N s/m, kg, >= 0 */
-        } ground;
-        struct {
-            double length, pivot,
-                inertia; /* 0 < pivot < length from the left; about the pivot */
-        } support;
+        strum_taut_cable cable;
+        strum_taut_varying varying;
+        strum_taut_body body;
+        strum_taut_hanging hanging;
+        strum_taut_ground ground;
+        strum_taut_support support;
     };
 } strum_taut_component;
 
