@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * What an endpoint is: a path, the table of its fields, and the function that answers. Adding
- * one means adding a file with a `const endpoint`, a row in endpoints[] (table.c) and its
+ * one means adding a file with a `const endpoint`, a row in MECHANICS (table.h) and its
  * answer's schema in api/openapi.yaml.
  */
 #ifndef ENDPOINTS_ENDPOINT_H
@@ -66,11 +66,6 @@ typedef struct endpoint {
      * `request` only. */
     bool (*answer)(const void *request, answer *a);
 } endpoint;
-
-/* All endpoints, ended by NULL. */
-extern const endpoint *const endpoints[];
-/* The endpoint of a path, or NULL. */
-const endpoint *endpoint_find(const char *path);
 
 /* ---- one asking: what http and cache see of all this ---- */
 

@@ -10,6 +10,7 @@
 #include "http/api/batch_reader.h"
 #include "http/api/reply.h"
 #include "http/transport/server.h"
+#include "validation/registry.h"
 
 /* So many items may have been begun and not been sent, or answers of so many bytes: whichever
  * is less. */

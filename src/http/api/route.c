@@ -6,6 +6,7 @@
 #include "http/api/solve_handler.h"
 #include "http/api/batch.h"
 #include "http/api/pages.h"
+#include "validation/registry.h"
 
 #define READ (METHOD_GET | METHOD_HEAD)
 

@@ -9,6 +9,7 @@
 #include "check.h"
 #include "endpoints/endpoint.h"
 #include "tables.h"
+#include "validation/registry.h"
 
 /* ---- allocations that fail: the linker sends malloc and its kin here ---- */
 
