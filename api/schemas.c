@@ -3,7 +3,7 @@
  * "name", "request"}}, the request as JSON Schema. Built, not installed. */
 #include <stdio.h>
 
-#include "endpoints/endpoint.h"
+#include "validation/registry.h"
 
 int main(void)
 {

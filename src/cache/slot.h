@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What entry.c and cache.c know of an entry and nobody else does. */
+/* What slot.c and cache.c know of an entry and nobody else does; slot.c also makes and ends
+ * entries. */
 #ifndef CACHE_SLOT_H
 #define CACHE_SLOT_H
 

@@ -141,10 +141,11 @@ export function makeBench(endpoint, first, keptFirst) {
 
   function showCite() {
     const { request, answer, text } = current;
-    const { key, solver, theory } = answer.meta;
+    const { key, solver, solver_number: number, theory } = answer.meta;
     const address = `/v1/results/${key}`;
     const curl = curlOf(endpoint.path, request);
-    const citation = `${solver}, ${endpoint.path}, ${theory}. Answer ${key}, ${location.origin}${address}`;
+    /* With the question, since the daemon keeps an answer no longer than it has room and runs. */
+    const citation = `${solver}, solver number ${number}, ${endpoint.path}, ${theory}. Answer ${key}, asked by: ${curl}`;
     const link = () => new URL(stateLink(endpoint.path, current.request, kept), location.href).href;
     const below = () => {
       cite.querySelector('details').open = true;
@@ -159,7 +160,8 @@ export function makeBench(endpoint, first, keptFirst) {
         button('Copy curl', () => copy(curl, 'The curl line', below)),
         button('JSON', () => download(`${endpoint.name}.json`, 'application/json', text))),
       h('details', {}, h('summary', {}, 'Cite, repeat, check'),
-        h('p', {}, 'Permanent address: ', h('a', { href: address, class: 'address' }, h('code', {}, address))),
+        h('p', {}, 'Cite the question: a solver of the same number answers it with the same key and the same bytes.'),
+        h('p', {}, 'While this daemon keeps it: ', h('a', { href: address, class: 'address' }, h('code', {}, address))),
         h('p', {}, h('code', { class: 'citation' }, citation)),
         h('pre', { tabindex: '0' }, h('code', { class: 'curl' }, curl))));
   }

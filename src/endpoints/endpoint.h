@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * What an endpoint is: a path, the table of its fields, and the function that answers. Adding
- * one means adding a file with a `const endpoint`, a row in endpoints[] (table.c) and its
+ * one means adding a file with a `const endpoint`, a row in MECHANICS (table.h) and its
  * answer's schema in api/openapi.yaml.
  */
 #ifndef ENDPOINTS_ENDPOINT_H
@@ -67,11 +67,6 @@ typedef struct endpoint {
     bool (*answer)(const void *request, answer *a);
 } endpoint;
 
-/* All endpoints, ended by NULL. */
-extern const endpoint *const endpoints[];
-/* The endpoint of a path, or NULL. */
-const endpoint *endpoint_find(const char *path);
-
 /* ---- one asking: what http and cache see of all this ---- */
 
 /* A request that was read, checked and completed. Owned by the caller; ended by evaluation_free. */
@@ -86,11 +81,13 @@ evaluation *evaluation_read_query(const endpoint *e, const query_pair *pairs, si
                                   problem *p);
 void evaluation_free(evaluation *a);
 
-/* Canonical bytes: endpoint, solver version and every field; their hash is the answer's key. */
+/* Canonical bytes: endpoint, version and number of the solver, and every field; their hash is the
+ * answer's key. */
 void evaluation_canonical(const evaluation *a, strbuf *out);
+/* The endpoint's estimate, made once when the request was complete. */
 double evaluation_cost_us(const evaluation *a);
-/* Writes {"request", "result", "warnings", "meta": {"key", "solver", "theory"}}. False with `p`
- * filled when there is no answer. `w` may be NULL. */
+/* Writes {"request", "result", "warnings", "meta": {"key", "solver", "solver_number",
+ * "theory"}}. False with `p` filled when there is no answer. `w` may be NULL. */
 bool evaluation_answer(const evaluation *a, const char *key, observer *w, strbuf *out,
                        problem *p);
 

@@ -15,6 +15,7 @@ struct evaluation {
     const endpoint *endpoint;
     void *request; /* owned by the arena */
     schema_arena *arena;
+    double cost_us; /* an estimate may itself solve something: made once */
 };
 
 /* Checks across fields, and the evaluation itself; takes the arena. */
@@ -30,7 +31,8 @@ static evaluation *evaluation_complete(const endpoint *e, void *request, schema_
             problem_out_of_memory(p);
         return NULL;
     }
-    *a = (evaluation){.endpoint = e, .request = request, .arena = arena};
+    *a = (evaluation){
+        .endpoint = e, .request = request, .arena = arena, .cost_us = e->cost_us(request)};
     return a;
 }
 
@@ -77,12 +79,15 @@ void evaluation_canonical(const evaluation *a, strbuf *out)
     strbuf_add(out, a->endpoint->path, strlen(a->endpoint->path) + 1);
     strbuf_add(out, CANONICAL_VERSION, sizeof CANONICAL_VERSION);
     strbuf_add(out, strum_version(), strlen(strum_version()) + 1);
+    /* Equal keys mean equal bytes: a key ends with the solver whose answer it named. */
+    strbuf_format(out, "%d", strum_solver());
+    strbuf_add(out, "", 1);
     schema_canonical(a->endpoint->request, a->request, out);
 }
 
 double evaluation_cost_us(const evaluation *a)
 {
-    return a->endpoint->cost_us(a->request);
+    return a->cost_us;
 }
 
 void answer_warn(answer *a, const char *format, ...)
@@ -150,6 +155,7 @@ static void write_end(const answer *answered, const char *key, json_writer *json
     json_string(json, solver.failed ? "" : solver.data);
     json->out->failed |= solver.failed;
     strbuf_clear(&solver);
+    json_put_integer(json, "solver_number", strum_solver());
     if (answered->theory != NULL)
         json_put_string(json, "theory", answered->theory);
     json_close_object(json);

@@ -1,21 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the daemon answers: one row an endpoint. */
+#include "endpoints/table.h"
+
 #include <string.h>
 
-#include "endpoints/endpoint.h"
+static const endpoint *const mechanics[] = {MECHANICS, NULL};
 
-extern const endpoint absorber_optimize, catenary_frequencies, forced_tension, inclined_modes,
-    taut_matrix, taut_modes, validation;
-
-const endpoint *const endpoints[] = {
-    &catenary_frequencies, &forced_tension,    &inclined_modes, &taut_modes,
-    &taut_matrix,          &absorber_optimize, &validation,     NULL,
-};
-
-const endpoint *endpoint_find(const char *path)
+const endpoint *table_find(const endpoint *const *table, const char *path)
 {
-    for (int i = 0; endpoints[i] != NULL; i++)
-        if (strcmp(endpoints[i]->path, path) == 0)
-            return endpoints[i];
+    for (int i = 0; table[i] != NULL; i++)
+        if (strcmp(table[i]->path, path) == 0)
+            return table[i];
     return NULL;
+}
+
+const endpoint *mechanics_find(const char *path)
+{
+    return table_find(mechanics, path);
 }

@@ -101,8 +101,10 @@ void json_string_n(json_writer *json, const char *bytes, size_t size)
     const char *plain = bytes; /* start of the run that needs no change */
     for (const char *at = bytes; at < end;) {
         const unsigned char byte = (unsigned char)*at;
-        const size_t length = utf8_size(at, end);
-        if (length > 0 && byte >= 0x20 && byte != '"' && byte != '\\') {
+        const bool itself = byte >= 0x20 && byte != '"' && byte != '\\';
+        /* Nearly every string is one of ours, in ASCII: no sequence to judge. */
+        const size_t length = byte < 0x80 ? 1 : utf8_size(at, end);
+        if (length > 0 && itself) {
             at += length;
             continue;
         }

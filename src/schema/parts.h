@@ -12,6 +12,9 @@ typedef struct reading {
     bool variables;
 } reading;
 
+/* An empty arena, or NULL. */
+schema_arena *arena_new(void);
+
 /* Row `name`, or -1; looked for from row `hint` on, for documents follow the table's order. */
 int schema_row(const schema *s, const char *name, int hint);
 

@@ -2,7 +2,7 @@
 /*
  * Values of a request: from JSON into the struct, every fault at its pointer.
  *
- * Index: read_members -> read_field -> read_number, read_integer, read_choice, read_name,
+ * Index: schema_read -> read_members -> read_field -> read_number, read_integer, read_choice, read_name,
  * read_numbers, read_complexes, read_objects, read_variants.
  */
 #include <math.h>
@@ -425,4 +425,24 @@ void read_members(reading *r, const schema *s, const cJSON *object, bool typed,
             *(field_set *)request |= row_bit(row);
     }
     complete_members(r, s, seen, place, request);
+}
+
+void *schema_read(const schema *s, const cJSON *object, bool variables, schema_arena **arena,
+                  problem *p)
+{
+    reading r = {.arena = arena_new(), .p = p, .variables = variables};
+    void *request = r.arena != NULL ? schema_alloc(r.arena, s->size) : NULL;
+    if (request == NULL)
+        problem_out_of_memory(p);
+    else if (!cJSON_IsObject(object))
+        problem_add(p, "", "expected an object with the fields of %s", s->name);
+    else
+        read_members(&r, s, object, false, NULL, request);
+    if (p->status != 0) {
+        schema_free(r.arena);
+        *arena = NULL;
+        return NULL;
+    }
+    *arena = r.arena;
+    return request;
 }

@@ -175,6 +175,10 @@ void schema_variables(const schema *s, const void *request, schema_see_variable 
 
 /* Memory that lives as long as the request; NULL when there is none left. */
 void *schema_alloc(schema_arena *arena, size_t size);
+/* Lets the request own an object that is not in the arena's memory: schema_free calls `destroy`
+ * with it, for several objects in the reverse order of these calls, so that a later one may
+ * refer to an earlier one. When memory runs out the object is destroyed at once: false. */
+bool schema_arena_own(schema_arena *arena, void *object, void (*destroy)(void *object));
 
 /* The echo: every field given or defaulted, as a JSON object, in table order. */
 void schema_echo(const schema *s, const void *request, json_writer *json);

@@ -7,7 +7,7 @@
 
 #include "validation/cases.h"
 #include "validation/compare.h"
-#include "endpoints/endpoint.h"
+#include "endpoints/table.h"
 
 /* The defaults of strumd, under which the cases say what is refused. */
 static const json_limits limits = {.depth = 16, .values = 20000};
@@ -137,7 +137,7 @@ static void run_case(const validation_case *one, const answer *a, outcome *o)
     strbuf answered = {0};
     observer w = {.cancel = a->cancel};
     cJSON *expect = cJSON_Parse(one->expect);
-    const endpoint *e = endpoint_find(one->path);
+    const endpoint *e = mechanics_find(one->path);
     evaluation *asked = e ? evaluation_read(e, one->body, one->body_size, &limits, &p) : NULL;
     if (asked)
         evaluation_answer(asked, "", &w, &answered, &p);

@@ -33,7 +33,8 @@ test('a new user finds, sees and cites a first frequency', async () => {
   const [, body, url] = curl.match(/^curl -s --json '(.*)' (\S+)$/);
   const repeated = await fetch(url, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body });
   assert.deepEqual(await repeated.json(), answer);
-  assert.ok((await page.locator('.citation').textContent()).includes(answer.meta.key));
+  const citation = await page.locator('.citation').textContent();
+  for (const part of [answer.meta.key, `solver number ${answer.meta.solver_number}`, curl]) assert.ok(citation.includes(part), part);
   await page.close();
   bed.noFaults();
 });

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "endpoints/endpoint.h"
+#include "validation/registry.h"
 
 /* What is estimated to take longer (without sanitizers) is read and keyed, but not solved: a
  * fuzzer lives by its runs per second. FUZZ_COST_US in the environment sets another bound. */

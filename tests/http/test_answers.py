@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One parameter set, one answer: methods, keys, conditions and headers."""
+import json
 import re
 
 import pytest
 
-from conftest import CHEAP, COSTLY, PATH, split_answers
+from conftest import CHEAP, COSTLY, PATH, ROOT, split_answers
 
 QUERY_STRING = "?rise_to_span=0&sag_parameter=0.9&modes=6"
 JSON = {"Content-Type": "application/json"}
@@ -253,6 +254,8 @@ def test_pages(strumd):
     assert version["name"] == "strumd" and re.fullmatch(r"[0-9a-f]{12}|unknown", version["commit"])
     assert re.fullmatch(r"\d+\.\d+\.\d+", version["version"])
     assert re.fullmatch(r"\d+\.\d+\.\d+", version["solver"])
+    example = json.loads((ROOT / "api/examples/taut_matrix.json").read_text(encoding="utf-8"))
+    assert version["solver_number"] == example["answer"]["meta"]["solver_number"]
     metrics = strumd.get("/metrics")
     assert metrics.headers["Content-Type"].startswith("text/plain; version=0.0.4")
     names = [line.split()[2] for line in metrics.text.splitlines() if line.startswith("# TYPE ")]

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import pathlib
+import re
 import signal
 import struct
 import subprocess
@@ -11,15 +12,16 @@ import time
 
 import pytest
 
-from conftest import COSTLY, FORCED, IMPOSSIBLE, PATIENCE, PROGRAM, reserve_port
+from conftest import COSTLY, FORCED, IMPOSSIBLE, PATIENCE, PROGRAM, ROOT, reserve_port
 from test_batch import answers, item, post_batch
 from test_load import answers_of, as_bytes, ask, costly, held, wait_metric
 
 FOUND = "strum-store; hit, strum; fwd=miss; stored"
 ALL = ("--inline-us", "0", "--store-timeout-ms", "60000")  # everything is shared, however slow this machine is
-# Version and build: a digest of the program after its length.
+# Version, solver number and build: a digest of the program after its length.
 BYTES = pathlib.Path(PROGRAM).read_bytes()
-SOLVER = subprocess.check_output([PROGRAM, "--version"], text=True).split()[1] + "-" + hashlib.sha256(
+NUMBER, = re.findall(r"^solver_number = (\d+)$", (ROOT / "meson.build").read_text(encoding="utf-8"), re.M)
+SOLVER = subprocess.check_output([PROGRAM, "--version"], text=True).split()[1] + f"-{NUMBER}-" + hashlib.sha256(
     struct.pack("<Q", len(BYTES)) + BYTES).hexdigest()[:16]
 
 
@@ -230,7 +232,7 @@ def test_what_was_changed_is_solved_anew_and_overwritten(start_strumd, redis):
 def test_another_solver_s_answers_are_not_looked_at(start_strumd, redis):
     first, = fill(start_strumd(*redis.flags, *ALL), [COSTLY])
     key, = redis.keys()
-    redis.ask("RENAME", key, key.replace(SOLVER, "0.1.0-0123456789abcdef"))
+    redis.ask("RENAME", key, key.replace(SOLVER, "0.1.0-1-0123456789abcdef"))
     cold = start_strumd(*redis.flags, *ALL)
     assert fill(cold, [COSTLY])[0].content == first.content
     assert (cold.metric("store_misses_total"), cold.metric("store_rejected_total"), cold.metric("solves_total")) == (1, 0, 1)

@@ -9,6 +9,7 @@
 #include "http/service/clock.h"
 #include "http/api/batch_reader.h"
 #include "http/api/reply.h"
+#include "validation/registry.h"
 
 /* Limits on items started but not yet sent: their number, and the bytes of their answers. */
 #define WINDOW       64

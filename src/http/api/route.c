@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "validation/registry.h"
+
 static const struct {
     const char *verb;
     method method;

@@ -9,6 +9,7 @@
 #include "check.h"
 #include "endpoints/endpoint.h"
 #include "tables.h"
+#include "validation/registry.h"
 
 /* ---- allocations that fail: the linker sends malloc and its kin here ---- */
 
@@ -172,8 +173,8 @@ static void an_answer_has_four_parts(void **state)
                   "\"mass_kg_per_m\":6,\"flexibility\":0,\"plane\":\"both\",\"modes\":3,"
                   "\"verify\":true,\"chi\":[0,9.80665]},\"result\":{\"x\":0.1},\"warnings\":["
                   "\"first 1\",\"second \\\"two\\\"\"],\"meta\":{\"key\":\"abc123\",\"solver\":"
-                  "\"strum %s\",\"theory\":\"none \\\"at all\\\"\"}}",
-                  strum_version());
+                  "\"strum %s\",\"solver_number\":%d,\"theory\":\"none \\\"at all\\\"\"}}",
+                  strum_version(), strum_solver());
     assert_string_equal(out.data, want.data);
     strbuf_clear(&want);
     strbuf_clear(&out);
@@ -242,7 +243,8 @@ static void canonical_bytes_name_endpoint_and_solver(void **state)
     evaluation_canonical(query, &two);
     assert_int_equal(one.size, two.size);
     assert_memory_equal(one.data, two.data, one.size);
-    strbuf_format(&head, "/v1/test/cable%c1%c%s%c", 0, 0, strum_version(), 0);
+    strbuf_format(&head, "/v1/test/cable%c1%c%s%c%d%c", 0, 0, strum_version(), 0,
+                  strum_solver(), 0);
     /* then the first field that has a value: its name, its tag, +0 */
     strbuf_add(&head, "xi_1\0n\0\0\0\0\0\0\0\0", 14);
     assert_true(one.size > head.size);

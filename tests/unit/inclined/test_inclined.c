@@ -875,7 +875,7 @@ static void work_is_limited(void **state)
         const strum_inclined_params params = {
             .cable = taut(0.3, 40, 60, 0.9), .model = (strum_inclined_model)model, .count = 5};
         const double work = strum_inclined_work(&params);
-        strum_options options = {.work_max = work / 2};
+        strum_options options = {.work_max = work / 20};
         strum_inclined *modes;
         strum_error error;
         assert_int_equal(strum_inclined_solve(&params, &options, &modes, &error),
@@ -910,11 +910,11 @@ static bool after_a_while(void *context)
     return now > s->at;
 }
 
-/* 200 modes by every approximation, and their verification, poll often enough to end in time. */
+/* 200 modes by every model, and their verification, poll often enough to end in time. */
 static void cancelled_in_time(void **state)
 {
     (void)state;
-    for (int model = STRUM_INCLINED_AIRY; model <= STRUM_INCLINED_IRVINE; model++) {
+    for (int model = STRUM_INCLINED_FULL; model <= STRUM_INCLINED_IRVINE; model++) {
         const strum_inclined_params params = {.cable = taut(0.9, 60, 5000, 0.9),
                                               .model = (strum_inclined_model)model,
                                               .count = STRUM_MODES_MAX};
@@ -930,16 +930,17 @@ static void cancelled_in_time(void **state)
                 strum_inclined_free(modes);
             assert_true(status == (pass == 0 ? STRUM_ERR_CANCELLED : STRUM_OK) ||
                         (pass == 0 && cpu_s() - start < 0.2));
-            assert_true(pass == 1 || cpu_s() - start < 0.4);
+            assert_true(pass == 1 || cpu_s() - start < 1.5); /* one call of LAPACK more */
         }
         const double start = cpu_s();
         stopper s = {.at = start + 0.1, .last = start};
         const strum_options options = {.cancelled = after_a_while, .context = &s};
         strum_verification v;
-        assert_int_equal(strum_inclined_verify(modes, &options, &v, NULL), STRUM_OK);
+        const strum_status status = strum_inclined_verify(modes, &options, &v, NULL);
+        assert_true(status == STRUM_OK || status == STRUM_ERR_CANCELLED);
         print_message("# model %d: verify %.3f s, longest silence %.3f s\n", model,
                       cpu_s() - start, s.longest);
-        assert_true(cpu_s() - start < 0.4);
+        assert_true(cpu_s() - start < 1.5);
         strum_inclined_free(modes);
     }
 }

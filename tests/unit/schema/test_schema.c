@@ -426,6 +426,45 @@ static void query_faults_are_named(void **state)
                         "/components: missing: from left to right\n");
 }
 
+/* ---- what a request owns ---- */
+
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+static bool memory_is_out;
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return memory_is_out ? NULL : __real_calloc(count, size);
+}
+
+static char destroyed[8];
+
+static void destroy(void *object)
+{
+    strncat(destroyed, object, sizeof destroyed - strlen(destroyed) - 1);
+}
+
+static void objects_end_with_the_request(void **state)
+{
+    (void)state;
+    schema_arena *arena;
+    problem p = {0};
+    assert_non_null(read_json(&cable_schema, false, "{\"sag_parameter\": 0.5}", &arena, &p));
+    char a[] = "a", b[] = "b", c[] = "c", d[] = "d";
+    assert_true(schema_arena_own(arena, a, destroy));
+    assert_non_null(schema_alloc(arena, 10000)); /* a chunk of its own, and full */
+    assert_true(schema_arena_own(arena, b, destroy));
+    assert_true(schema_arena_own(arena, c, destroy));
+    assert_non_null(schema_alloc(arena, 10000));
+    assert_string_equal(destroyed, "");
+    memory_is_out = true;
+    assert_false(schema_arena_own(arena, d, destroy));
+    memory_is_out = false;
+    assert_string_equal(destroyed, "d");
+    schema_free(arena);
+    assert_string_equal(destroyed, "dcba");
+}
+
 /* ---- canonical form ---- */
 
 static strbuf canonical_of(const schema *s, const char *json)
@@ -509,6 +548,7 @@ int main(void)
         cmocka_unit_test(endless_faults_are_counted),
         cmocka_unit_test(query_is_the_same_request),
         cmocka_unit_test(query_faults_are_named),
+        cmocka_unit_test(objects_end_with_the_request),
         cmocka_unit_test(equal_requests_have_equal_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,6 +6,7 @@
 #include "check.h"
 #include "endpoints/endpoint.h"
 #include "tables.h"
+#include "validation/registry.h"
 
 static const char *table_name;
 

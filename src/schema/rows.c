@@ -18,9 +18,22 @@ typedef struct chunk {
     max_align_t bytes[];
 } chunk;
 
+/* Held in the arena's own memory. */
+typedef struct owned {
+    struct owned *before;
+    void *object;
+    void (*destroy)(void *object);
+} owned;
+
 struct schema_arena {
     chunk *chunks; /* the newest first */
+    owned *owned;  /* the newest first */
 };
+
+schema_arena *arena_new(void)
+{
+    return calloc(1, sizeof(schema_arena));
+}
 
 void *schema_alloc(schema_arena *arena, size_t size)
 {
@@ -43,35 +56,29 @@ void *schema_alloc(schema_arena *arena, size_t size)
     return bytes;
 }
 
+bool schema_arena_own(schema_arena *arena, void *object, void (*destroy)(void *object))
+{
+    owned *o = schema_alloc(arena, sizeof *o);
+    if (o == NULL) {
+        destroy(object);
+        return false;
+    }
+    *o = (owned){arena->owned, object, destroy};
+    arena->owned = o;
+    return true;
+}
+
 void schema_free(schema_arena *arena)
 {
     if (arena == NULL)
         return;
+    for (const owned *o = arena->owned; o != NULL; o = o->before)
+        o->destroy(o->object);
     for (chunk *c = arena->chunks, *next; c != NULL; c = next) {
         next = c->next;
         free(c);
     }
     free(arena);
-}
-
-void *schema_read(const schema *s, const cJSON *object, bool variables, schema_arena **arena,
-                  problem *p)
-{
-    reading r = {.arena = calloc(1, sizeof *r.arena), .p = p, .variables = variables};
-    void *request = r.arena != NULL ? schema_alloc(r.arena, s->size) : NULL;
-    if (request == NULL)
-        problem_out_of_memory(p);
-    else if (!cJSON_IsObject(object))
-        problem_add(p, "", "expected an object with the fields of %s", s->name);
-    else
-        read_members(&r, s, object, false, NULL, request);
-    if (p->status != 0) {
-        schema_free(r.arena);
-        *arena = NULL;
-        return NULL;
-    }
-    *arena = r.arena;
-    return request;
 }
 
 /* ---- rows ---- */
