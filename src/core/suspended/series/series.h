@@ -41,6 +41,8 @@ typedef struct series_recursion {
     series_row *rows;             /* singular: rows[j * room + k]; else rows[k] */
 } series_recursion;
 
+/* x = xi, or, where not singular, xi = 2 + 2x: coefficients; no rows yet. */
+void series_recursion_make(series_recursion *r, int m, bool singular);
 /* Fills rows up to k. */
 void series_recursion_extend(series_recursion *r, int k);
 
