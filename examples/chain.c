@@ -58,7 +58,7 @@ int main(void)
     query.count = 2;
     query.method = STRUM_TAUT_CERTIFIED;
     strum_taut_roots *roots = NULL;
-    strum_status status = strum_taut_solve(chain, &query, &roots, &error);
+    strum_status status = strum_taut_solve(chain, &query, NULL, &roots, &error);
     strum_taut_free(&chain);
     if (status != STRUM_OK)
         return fail(&error);
