@@ -100,6 +100,14 @@ bool field_given(const schema *s, const void *request, const char *name)
     return row >= 0 && (given_rows(request) & row_bit(row)) != 0;
 }
 
+bool field_given_at(const schema *s, const void *request, size_t offset)
+{
+    for (int row = 0; s->fields[row].kind != FIELD_END; row++)
+        if (s->fields[row].offset == offset)
+            return (given_rows(request) & row_bit(row)) != 0;
+    return false;
+}
+
 void field_give(const schema *s, void *request, const char *name)
 {
     const int row = schema_row(s, name, 0);

@@ -143,6 +143,12 @@ struct schema {
 /* True when row `name` of the struct has a value: given, defaulted or set since (field_give).
  * To know what a caller gave, look at a field without a default. */
 bool field_given(const schema *s, const void *request, const char *name);
+/* The same of a struct's member: FIELD_GIVEN(&schema, r, span_m). A name that is no member does not
+ * compile, and no names are compared. */
+#define FIELD_GIVEN(s, request, member)                                                        \
+    field_given_at((s), (request),                                                             \
+                   (size_t)((const char *)&(request)->member - (const char *)(request)))
+bool field_given_at(const schema *s, const void *request, size_t offset);
 /* Marks it as set: for defaults that are computed from other fields (they are echoed and enter
  * the key). */
 void field_give(const schema *s, void *request, const char *name);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Answers that change take a new solver number, and so new keys.
 
-solver_numbers.json records, for every solver number there was, the key and a digest of the answer of each example.
+solver_numbers.json records, for every solver number there was, the key and a digest of the answer of each example (of number 1, from before the record, the keys only).
 """
 import importlib.machinery
 import importlib.util

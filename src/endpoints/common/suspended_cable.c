@@ -26,7 +26,7 @@ void cable_refuse(const strum_error *fault, strum_status status, problem *p)
 static strum_status find_catenary(const schema *s, const cable_input *in, strum_catenary *c,
                                   const char **pointer, strum_error *fault)
 {
-    if (field_given(s, in, "sag_parameter")) {
+    if (FIELD_GIVEN(s, in, sag_parameter)) {
         const strum_status status =
             strum_catenary_from_sag(in->rise_to_span, in->sag_parameter, c, fault);
         /* the rise decides where the same cable would be good between level supports */
@@ -37,15 +37,15 @@ static strum_status find_catenary(const schema *s, const cable_input *in, strum_
                        : "/sag_parameter";
         return status;
     }
-    if (field_given(s, in, "xi_2")) {
+    if (FIELD_GIVEN(s, in, xi_2)) {
         *pointer = "/xi_2";
         return strum_catenary_from_xi(in->xi_1, in->xi_2, c, fault);
     }
-    if (field_given(s, in, "chi_2")) {
+    if (FIELD_GIVEN(s, in, chi_2)) {
         *pointer = "/chi_2";
         return strum_catenary_from_chi(in->chi_1, in->chi_2, c, fault);
     }
-    if (field_given(s, in, "length_m")) {
+    if (FIELD_GIVEN(s, in, length_m)) {
         *pointer = "/length_m";
         return strum_catenary_from_length(in->span_m, in->rise_m, in->length_m, c, fault);
     }
@@ -58,29 +58,29 @@ static strum_status find_catenary(const schema *s, const cable_input *in, strum_
 /* Weight follows from mass unless given; what hangs on a mass needs one. */
 static void complete_masses(const schema *s, cable_input *in, problem *p)
 {
-    const bool mass = field_given(s, in, "mass_kg_per_m");
-    if (!mass && field_given(s, in, "weight_N_per_m"))
+    const bool mass = FIELD_GIVEN(s, in, mass_kg_per_m);
+    if (!mass && FIELD_GIVEN(s, in, weight_N_per_m))
         problem_add(p, "/mass_kg_per_m", "is needed with weight_N_per_m");
     if (!mass && in->added_mass_kg_per_m > 0)
         problem_add(p, "/mass_kg_per_m", "is needed with added_mass_kg_per_m");
-    if (mass && !field_given(s, in, "weight_N_per_m")) {
+    if (mass && !FIELD_GIVEN(s, in, weight_N_per_m)) {
         in->weight_N_per_m = in->mass_kg_per_m * in->gravity_m_per_s2;
         field_give(s, in, "weight_N_per_m");
     }
-    const bool metres = field_given(s, in, "span_m");
-    if (field_given(s, in, "axial_stiffness_N") && !metres)
+    const bool metres = FIELD_GIVEN(s, in, span_m);
+    if (FIELD_GIVEN(s, in, axial_stiffness_N) && !metres)
         problem_add(p, "/axial_stiffness_N",
                     "needs a geometry in metres; give flexibility with a dimensionless one");
-    else if (field_given(s, in, "axial_stiffness_N") && !mass)
+    else if (FIELD_GIVEN(s, in, axial_stiffness_N) && !mass)
         problem_add(p, "/mass_kg_per_m", "is needed with axial_stiffness_N");
 }
 
 void cable_prepare(const schema *s, cable_input *in, problem *p)
 {
     complete_masses(s, in, p);
-    if (field_given(s, in, "xi_2") && !(in->xi_1 < in->xi_2))
+    if (FIELD_GIVEN(s, in, xi_2) && !(in->xi_1 < in->xi_2))
         problem_add(p, "/xi_2", "must be greater than xi_1");
-    if (field_given(s, in, "chi_2") && !(in->chi_1 < in->chi_2))
+    if (FIELD_GIVEN(s, in, chi_2) && !(in->chi_1 < in->chi_2))
         problem_add(p, "/chi_2", "must be greater than chi_1");
     if (p->status != 0)
         return;
@@ -93,16 +93,16 @@ void cable_prepare(const schema *s, cable_input *in, problem *p)
         return;
     }
     const strum_catenary *c = &in->catenary;
-    const bool mass = field_given(s, in, "mass_kg_per_m");
-    in->a_m = field_given(s, in, "span_m") ? in->span_m / c->span : 0;
+    const bool mass = FIELD_GIVEN(s, in, mass_kg_per_m);
+    in->a_m = FIELD_GIVEN(s, in, span_m) ? in->span_m / c->span : 0;
     in->tension_N = mass ? in->weight_N_per_m * in->a_m : 0;
     /* the core's unit of frequency is sqrt(H/(m a^2)) = sqrt(w/(m a)) */
     in->ratio =
         mass ? sqrt(in->weight_N_per_m / (in->mass_kg_per_m * in->gravity_m_per_s2)) : 1;
     in->rad_per_s = in->a_m > 0 ? sqrt(in->gravity_m_per_s2 / in->a_m) : 0;
-    const bool elastic_profile = field_given(s, in, "unstretched_length_m");
+    const bool elastic_profile = FIELD_GIVEN(s, in, unstretched_length_m);
     const double kappa = elastic_profile ? c->kappa
-                         : field_given(s, in, "axial_stiffness_N")
+                         : FIELD_GIVEN(s, in, axial_stiffness_N)
                              ? in->tension_N / in->axial_stiffness_N
                              : in->flexibility;
     in->cable =

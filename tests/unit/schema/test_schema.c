@@ -97,6 +97,8 @@ static void struct_holds_what_was_given(void **state)
     assert_true(field_given(&cable_schema, q, "flexibility"));
     assert_false(field_given(&cable_schema, q, "span_m"));
     assert_false(field_given(&cable_schema, q, "no_such_field"));
+    assert_true(FIELD_GIVEN(&cable_schema, q, xi_1));
+    assert_false(FIELD_GIVEN(&cable_schema, q, span_m));
     field_give(&cable_schema, q, "span_m");
     assert_true(field_given(&cable_schema, q, "span_m"));
     void *more = schema_alloc(arena, 100000);
