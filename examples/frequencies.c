@@ -14,7 +14,6 @@
 #define LENGTH  125.0   /* m */
 #define GRAVITY 9.80665 /* m/s^2 */
 #define TWO_PI  6.283185307179586
-#define COUNT   6
 
 static int fail(const strum_error *error)
 {
@@ -31,18 +30,21 @@ int main(void)
         return fail(&error);
 
     /* An inextensible cable in vacuum: no flexibility, no added mass, no damping. */
-    strum_cable cable = {profile.chi_m, profile.mu, 0, 0, 1, 1, 0, 0};
-    strum_spectrum *spectrum = NULL;
-    if (strum_modes_solve(&cable, STRUM_IN_PLANE, COUNT, false, &spectrum, &error) != STRUM_OK)
+    strum_modes_params params = STRUM_MODES_PARAMS_INIT;
+    params.cable.chi_m = profile.chi_m;
+    params.cable.mu = profile.mu;
+    params.count = 6;
+    strum_modes *modes = NULL;
+    if (strum_modes_solve(&params, NULL, &modes, &error) != STRUM_OK)
         return fail(&error);
 
     /* The library measures lengths in a = H/w and times in sqrt(a/g). */
     double a = SPAN / profile.span;
     printf("mode  ratio to sqrt(g/a)  Hz\n");
-    for (int i = 0; i < strum_spectrum_count(spectrum); i++) {
-        double ratio = strum_spectrum_mode(spectrum, i)->frequency;
-        printf("%d  %.12g  %.12g\n", i + 1, ratio, ratio * sqrt(GRAVITY / a) / TWO_PI);
-    }
-    strum_spectrum_free(&spectrum);
+    strum_mode mode;
+    for (size_t i = 0; strum_modes_get(modes, i, &mode) == STRUM_OK; i++)
+        printf("%zu  %.12g  %.12g\n", i + 1, mode.frequency,
+               mode.frequency * sqrt(GRAVITY / a) / TWO_PI);
+    strum_modes_free(modes);
     return 0;
 }

@@ -120,7 +120,7 @@ def test_cluster_files_agree():
 @pytest.mark.parametrize("probe", ["startupProbe", "livenessProbe", "readinessProbe"])
 def test_probes_are_routes(probe):
     container = load("deployment.yaml")["spec"]["template"]["spec"]["containers"][0]
-    assert f'{{"{container[probe]["httpGet"]["path"]}", ""' in (ROOT / "src/http/api/route.c").read_text()
+    assert f'{{.path = "{container[probe]["httpGet"]["path"]}",' in (ROOT / "src/http/api/api.c").read_text()
 
 
 def test_the_proxy_hashes_as_the_ingress_does():
