@@ -23,8 +23,7 @@
  *     strum_catenary c;
  *     strum_error error;
  *     if (strum_catenary_from_length(100, 0, 110, &c, &error) == STRUM_OK)
- *         printf("sag %g m
-", strum_catenary_sag(&c) * 100 / c.span);
+ *         printf("sag %g m\n", strum_catenary_sag(&c) * 100 / c.span);
  */
 #ifndef STRUM_CATENARY_H
 #define STRUM_CATENARY_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A request's body: reader, schema engine, every endpoint and its mechanics. */
 
-#include "asking_check.h"
+#include "evaluation_check.h"
 #include "mutate.h"
 
 int LLVMFuzzerInitialize(int *argc, char ***argv);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A query string: name=value pairs joined by "&", as libmicrohttpd hands them over decoded. */
 
-#include "asking_check.h"
+#include "evaluation_check.h"
 #include "mutate.h"
 
 #define PAIRS_MAX 64

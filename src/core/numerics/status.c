@@ -28,8 +28,10 @@ int strum_solver(void)
     return STRUM_SOLVER;
 }
 
-static strum_status set(strum_error *error, strum_status status, int argument, size_t index,
-                        const char *format, va_list arguments)
+__attribute__((format(printf, 5, 0))) static strum_status set(strum_error *error,
+                                                              strum_status status, int argument,
+                                                              size_t index, const char *format,
+                                                              va_list arguments)
 {
     if (error != NULL) {
         error->status = status;

@@ -12,7 +12,6 @@
  */
 #include <strum/catenary.h>
 
-#include <assert.h>
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
@@ -139,11 +138,12 @@ static strum_status solve_mu(double (*f)(double, void *), void *data, double *mu
         return error_set(fault, STRUM_ERR_RANGE,
                          "the cable is too deep: the slope parameter |chi| would exceed %g",
                          STRUM_CHI_MAX);
-    if (f(low, data) >= 0)
+    if (!(f(low, data) < 0)) /* so that GSL finds the signs it asks for */
         return refuse_taut(fault);
     /* GSL's steps on a state of ours: its own allocation would abort a host without memory. */
     max_align_t state[16];
-    assert(gsl_root_fsolver_brent->size <= sizeof state);
+    if (gsl_root_fsolver_brent->size > sizeof state)
+        return error_set(fault, STRUM_ERR_INTERNAL, "another GSL than this was built for");
     rising r = {f, data};
     gsl_function function = {finite_value, &r};
     double left = low, right = high, root = low;

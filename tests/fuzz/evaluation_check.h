@@ -4,8 +4,8 @@
  * line with the endpoint's path (any other line chooses one too, so that mutations of it are
  * not wasted), then the body or the query string.
  */
-#ifndef FUZZ_ASKING_CHECK_H
-#define FUZZ_ASKING_CHECK_H
+#ifndef FUZZ_EVALUATION_CHECK_H
+#define FUZZ_EVALUATION_CHECK_H
 
 #include <pthread.h>
 #include <stdio.h>
@@ -120,7 +120,7 @@ static inline void check_refusal(problem *p)
 }
 
 /* The bytes of the echo: numbers must not pass through another printer. */
-static inline text echo_of(const strbuf *answer)
+static inline strbuf echo_of(const strbuf *answer)
 {
     static const char before[] = "{\"request\":";
     must(answer->size > sizeof before && memcmp(answer->data, before, sizeof before - 1) == 0,
