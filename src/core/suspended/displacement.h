@@ -2,9 +2,10 @@
 /*
  * Gale's equation (2.35) in weak form, for an inextensible cable without damping (or with
  * damping proportional to mass): Galerkin's method with clamped Legendre functions of the
- * tangential displacement u, INT (cosh u'' + sinh u' + sech u)(cosh w'' + ..) dchi = omega^2
- * INT cosh (m_t u w + m_n cosh^2 u' w') dchi, since N = S dv/ds + u.. and v = du/dalpha =
- * cosh(chi) u'. Independent of the force form in unknown, equation and boundary conditions, and
+ * tangential displacement u,
+ *     INT (cosh u'' + sinh u' + sech u)(cosh w'' + sinh w' + sech w) dchi
+ *         = omega^2 INT cosh (m_t u w + m_n cosh^2 u' w') dchi,
+ * since the normal displacement is v = du/dalpha = cosh(chi) u'. Independent of the force form in unknown, equation and boundary conditions, and
  * half its size.
  */
 #ifndef CORE_SUSPENDED_DISPLACEMENT_H

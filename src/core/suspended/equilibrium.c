@@ -3,12 +3,16 @@
  * Equilibrium of a suspended cable, inextensible or elastic, from every form of input.
  *
  * With the slope parameter chi (tan alpha = sinh chi), its middle chi_m and half width mu, and
- * e = weight strain w0 L0/EA (0: inextensible), in units of a = H/w: L0   = 2 cosh(chi_m)
- * sinh(mu) span = (2 mu + e),                           rise = L0 tanh(chi_m) (1 + (e/2) coth
- * mu) since x = chi + kappa sinh chi, y = cosh chi + kappa sinh^2(chi)/2 and kappa = H/EA =
- * e/L0. Eliminating chi_m leaves one equation for mu, whose left side falls from +inf to 0
- * (elastic) or from 1 to 0: (mu + e/2)/sinh mu * sqrt(1 - (rise/L0)^2/(1 + (e/2) coth mu)^2) =
- * span/L0.
+ * e = weight strain w0 L0/EA (0: inextensible), in units of a = H/w:
+ *     L0   = 2 cosh(chi_m) sinh(mu)
+ *     span = 2 mu + e
+ *     rise = L0 tanh(chi_m) (1 + (e/2) coth mu)
+ * since, with kappa = H/EA = e/L0,
+ *     x = chi + kappa sinh chi
+ *     y = cosh chi + kappa sinh^2(chi)/2.
+ * Eliminating chi_m leaves one equation for mu, whose left side falls from +inf to 0 (elastic)
+ * or from 1 to 0:
+ *     (mu + e/2)/sinh mu * sqrt(1 - (rise/L0)^2/(1 + (e/2) coth mu)^2) = span/L0.
  */
 #include <strum/catenary.h>
 

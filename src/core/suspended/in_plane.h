@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Galerkin discretisation of the in-plane motion (include/strum/catenary.h). With x = (chi -
- * chi_m)/mu and the force and displacement expanded as F = c + sum f_k b_k(x),   X = sum x_k
- * b'_k(x),       INT b_j' b'_k... = identity, the weak equations are f = (s^2 M + s D) x, x =
- * -A f, M and D the mass and damping matrices of the b', A the compliance matrix of the b with
- * the zero-frequency constants c projected out. Two choices of b bound the answer from both
- * sides: IN_PLANE_FORCE_FORM   b = q_k (free at the ends, F' in span p_k): the complementary form;
- *     IN_PLANE_CLAMPED_FORM b = p_k (k >= 1), b' = q_k (clamped): its dual (Hellinger-Reissner).
+ * Galerkin discretisation of the in-plane motion (include/strum/catenary.h). With
+ * x = (chi - chi_m)/mu, force and displacement are expanded in functions b_k and their duals b'_k
+ * (INT of the products of b_j's derivative and b'_k: the identity):
+ *     F = c + sum f_k b_k(x)
+ *     X = sum x_k b'_k(x).
+ * The weak equations are
+ *     f = (s^2 M + s D) x
+ *     x = -A f
+ * with M and D the mass and damping matrices of the b', A the compliance matrix of the b with the
+ * zero-frequency constants c projected out. Two choices of b bound the answer from both sides:
+ *     IN_PLANE_FORCE_FORM    b = q_k (free at the ends, F' in span p_k): the complementary form
+ *     IN_PLANE_CLAMPED_FORM  b = p_k (k >= 1), b' = q_k (clamped): its dual (Hellinger-Reissner).
  * Neither locks as the cable becomes inextensible: A merely loses rank.
  */
 #ifndef CORE_SUSPENDED_IN_PLANE_H

@@ -5,10 +5,11 @@
  * nested quotients that lose digits and whose denominators vanish where nothing happens).
  *
  * Link i turns by th_i; arms a (left) and b (right) of its centre of mass, h = a + b; H_0 =
- * T_left, H_j the force of joint j, H_n = T_right; pull S_i = H_{i-1} a + H_i b; W = w^2 =
- * -s^2: y_i = y_{i-1} + h th_i,        V_i = V_{i-1} - W M (y_{i-1} + a th_i), m_i = m_{i-1} +
- * (S - W I + W M a b) th_i - h V_{i-1} + W M b y_{i-1}, where m_i = kappa_i (th_{i+1} - th_i)
- * is the moment of joint i and m_0 = m_n = 0. Summing the moments from the left keeps each
+ * T_left, H_j the force of joint j, H_n = T_right; pull S_i = H_{i-1} a + H_i b; W = w^2 = -s^2:
+ *     y_i = y_{i-1} + h th_i
+ *     V_i = V_{i-1} - W M (y_{i-1} + a th_i)
+ *     m_i = m_{i-1} + (S - W I + W M a b) th_i - h V_{i-1} + W M b y_{i-1}
+ * where m_i = kappa_i (th_{i+1} - th_i) is the moment of joint i and m_0 = m_n = 0. Summing the moments from the left keeps each
  * kappa in one equation, so that no digits are lost however stiff a joint is.
  */
 #include "core/taut/taut.h"
