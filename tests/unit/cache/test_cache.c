@@ -13,50 +13,16 @@
 
 /* ---- allocations that fail: the linker leads them here (meson.build) ---- */
 
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-char *__real_strdup(const char *string);
-char *__real_strndup(const char *string, size_t size);
-char *__wrap_strdup(const char *string);
-char *__wrap_strndup(const char *string, size_t size);
-
 static _Atomic long allocations_left = -1; /* -1: all succeed */
 
-static bool allocation_fails(void)
+static bool refuse_memory(void)
 {
     if (allocations_left < 0)
         return false;
     return allocations_left == 0 || allocations_left-- == 0;
 }
 
-void *__wrap_malloc(size_t size)
-{
-    return allocation_fails() ? NULL : __real_malloc(size);
-}
-
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return allocation_fails() ? NULL : __real_calloc(count, size);
-}
-
-void *__wrap_realloc(void *old, size_t size)
-{
-    return allocation_fails() ? NULL : __real_realloc(old, size);
-}
-
-char *__wrap_strdup(const char *string)
-{
-    return allocation_fails() ? NULL : __real_strdup(string);
-}
-
-char *__wrap_strndup(const char *string, size_t size)
-{
-    return allocation_fails() ? NULL : __real_strndup(string, size);
-}
+#include "failing_memory.h"
 
 /* ---- helpers ---- */
 

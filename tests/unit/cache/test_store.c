@@ -17,17 +17,6 @@
 
 /* ---- allocations that fail: the linker leads them here (meson.build) ---- */
 
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-char *__real_strdup(const char *string);
-char *__real_strndup(const char *string, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-char *__wrap_strdup(const char *string);
-char *__wrap_strndup(const char *string, size_t size);
-
 #define NEVER 1000000
 static atomic_long allocations, fails_at = NEVER;
 static atomic_bool and_all_after;
@@ -38,26 +27,7 @@ static bool refuse_memory(void)
     return and_all_after ? number >= fails_at : number == fails_at;
 }
 
-void *__wrap_malloc(size_t size)
-{
-    return refuse_memory() ? NULL : __real_malloc(size);
-}
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return refuse_memory() ? NULL : __real_calloc(count, size);
-}
-void *__wrap_realloc(void *old, size_t size)
-{
-    return refuse_memory() ? NULL : __real_realloc(old, size);
-}
-char *__wrap_strdup(const char *string)
-{
-    return refuse_memory() ? NULL : __real_strdup(string);
-}
-char *__wrap_strndup(const char *string, size_t size)
-{
-    return refuse_memory() ? NULL : __real_strndup(string, size);
-}
+#include "failing_memory.h"
 
 /* ---- a server that does as it is told: one connection at a time, one value ---- */
 

@@ -18,17 +18,6 @@
 
 /* ---- allocations: counted, and refused from the one chosen on ---- */
 
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-char *__real_strdup(const char *string);
-char *__real_strndup(const char *string, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-char *__wrap_strdup(const char *string);
-char *__wrap_strndup(const char *string, size_t size);
-
 #define NEVER 1000000
 static atomic_long allocations, fails_from = NEVER;
 static atomic_bool only_once;
@@ -39,26 +28,7 @@ static bool refuse_memory(void)
     return only_once ? number == fails_from : number >= fails_from;
 }
 
-void *__wrap_malloc(size_t size)
-{
-    return refuse_memory() ? NULL : __real_malloc(size);
-}
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return refuse_memory() ? NULL : __real_calloc(count, size);
-}
-void *__wrap_realloc(void *old, size_t size)
-{
-    return refuse_memory() ? NULL : __real_realloc(old, size);
-}
-char *__wrap_strdup(const char *string)
-{
-    return refuse_memory() ? NULL : __real_strdup(string);
-}
-char *__wrap_strndup(const char *string, size_t size)
-{
-    return refuse_memory() ? NULL : __real_strndup(string, size);
-}
+#include "failing_memory.h"
 
 /* ---- a server ---- */
 
