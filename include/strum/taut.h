@@ -35,6 +35,8 @@ STRUM_BEGIN_DECLS
  * stretches over which the tension changes by a fixed factor. */
 #define STRUM_TAUT_TENSION_FACTOR_MAX 1e9
 #define STRUM_TAUT_ROOTS_MAX          5000
+/* Nodes of one shape. */
+#define STRUM_TAUT_NODES_MAX 1000000
 
 /* Components passed by all evaluations of one solve (some 0.1 us each); beyond it a solve gives
  * up with STRUM_ERR_ACCURACY. */
@@ -235,7 +237,7 @@ typedef struct strum_taut_antinode {
 typedef struct strum_taut_shape strum_taut_shape;
 
 /* The shape of a root of the chain: shooting from both ends, joined where the motion is
- * largest. `root->frequency` > 0. */
+ * largest. `root->frequency` > 0. STRUM_ERR_METHOD above STRUM_TAUT_NODES_MAX nodes. */
 strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_root *root,
                                    strum_taut_shape **shape, strum_error *fault);
 void strum_taut_shape_free(strum_taut_shape **shape);

@@ -329,18 +329,11 @@ static strum_status give_overdamped(taut_solve *s, double decay)
 /* Rigid motions are zeros at s = 0: one where a damper resists them, two where none does. */
 static int zeros_at_origin(const strum_taut *chain)
 {
-    bool loose = chain->free_left && chain->free_right, resisted = false;
-    int masses = 0; /* hung without a spring */
-    for (size_t i = 0; i < chain->count; i++) {
-        const taut_component *c = &chain->components[i];
-        loose = loose && c->kind != TAUT_SUPPORT && c->kind != TAUT_WKB &&
-                !(c->kind == TAUT_GROUND && c->ground.stiffness > 0.0);
-        resisted = resisted || (c->kind == TAUT_CABLE && c->cable.drag > 0.0) ||
-                   (c->kind == TAUT_GROUND && c->ground.damping > 0.0);
-        if (c->kind == TAUT_HANGING && c->hanging.stiffness == 0.0)
-            masses += c->hanging.damping > 0.0 ? 1 : 2;
-    }
-    return masses + (loose ? (resisted ? 1 : 2) : 0);
+    taut_rigid rigid = {.loose = chain->free_left && chain->free_right};
+    for (size_t i = 0; i < chain->count; i++)
+        if (chain->components[i].model->rigid != NULL)
+            chain->components[i].model->rigid(&chain->components[i], &rigid);
+    return rigid.zeros + (rigid.loose ? (rigid.resisted ? 1 : 2) : 0);
 }
 
 static strum_status solve_axis(taut_solve *s, double lowest, double decay)

@@ -56,11 +56,6 @@ static size_t join(const arrow *left, const arrow *right, size_t stations, doubl
     return best;
 }
 
-static bool is_point(const taut_component *c)
-{
-    return c->kind == TAUT_GROUND || c->kind == TAUT_HANGING;
-}
-
 /* Where y is 0 but for rounding its sign still tells on which side of a station the node lies:
  * a held end lies beyond the last node, and both sides of a point have the same y. */
 static void settle_signs(strum_taut_shape *shape)
@@ -72,14 +67,14 @@ static void settle_signs(strum_taut_shape *shape)
     else
         shape->v[0] = 0.0; /* at a free end V is what is only rounding */
     for (size_t i = 0; i < n; i++)
-        if (is_point(&chain->components[i]))
+        if (chain->components[i].model->point)
             shape->y[i + 1] = shape->y[i];
     if (chain->free_right) {
         shape->v[n] = 0.0;
         return;
     }
     shape->y[n] = -copysign(DBL_MIN, creal(shape->v[n]));
-    for (size_t i = n; i-- > 0 && is_point(&chain->components[i]);)
+    for (size_t i = n; i-- > 0 && chain->components[i].model->point;)
         shape->y[i] = shape->y[n];
 }
 
@@ -95,12 +90,14 @@ static void fill_states(strum_taut_shape *shape, arrow *left, arrow *right)
     right[n] = chain->free_right ? (arrow){1.0, 0.0, 0.0} : (arrow){0.0, force, 0.0};
     shape->x[0] = 0.0;
     for (size_t i = 0; i < n; i++) {
-        taut_component_factor(&chain->components[i], &shape->at, &f);
+        const taut_component *c = &chain->components[i];
+        c->model->factor(c, &shape->at, &f);
         left[i + 1] = arrow_pass(&f, left[i], true, force);
         shape->x[i + 1] = shape->x[i] + chain->components[i].length;
     }
     for (size_t i = n; i-- > 0;) {
-        taut_component_factor(&chain->components[i], &shape->at, &f);
+        const taut_component *c = &chain->components[i];
+        c->model->factor(c, &shape->at, &f);
         right[i] = arrow_pass(&f, right[i + 1], false, force);
     }
     cplx factor;
@@ -189,20 +186,20 @@ static void scale_by_antinodes(strum_taut_shape *shape)
 /* ---- public ---- */
 
 strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_root *root,
-                                   strum_taut_shape **shape, strum_error *fault)
+                                   strum_taut_shape **shape, strum_error *error)
 {
     *shape = NULL;
     if (!(root->frequency > 0.0) || !isfinite(root->frequency) || !isfinite(root->decay))
-        return error_set(fault, STRUM_ERR_RANGE, "a shape needs a frequency above 0");
+        return error_set(error, STRUM_ERR_RANGE, "a shape needs a frequency above 0");
     if (!chain->moves)
-        return error_set(fault, STRUM_ERR_IMPOSSIBLE, "nothing in the chain can move");
+        return error_set(error, STRUM_ERR_IMPOSSIBLE, "nothing in the chain can move");
     const size_t stations = chain->count + 1;
     strum_taut_shape *made = calloc(1, sizeof *made);
     double *block = malloc(stations * (sizeof(double) + 2 * sizeof(cplx)));
     arrow *arrows = malloc(2 * stations * sizeof *arrows);
     strum_status status = STRUM_OK;
     if (made == NULL || block == NULL || arrows == NULL) {
-        status = error_set(fault, STRUM_ERR_MEMORY, "no memory for a shape");
+        status = error_set(error, STRUM_ERR_MEMORY, "no memory for a shape");
         free(block);
     } else {
         made->chain = taut_ref(chain);
@@ -212,7 +209,7 @@ strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_roo
         made->x = (double *)(made->v + stations);
         fill_states(made, arrows, arrows + stations);
         if (!chain->damped)
-            status = taut_shape_survey(made, fault);
+            status = taut_shape_survey(made, error);
         if (status == STRUM_OK && made->antinode_count > 0)
             scale_by_antinodes(made);
         else if (status == STRUM_OK)
@@ -240,16 +237,16 @@ void strum_taut_shape_free(strum_taut_shape **shape)
 }
 
 strum_status strum_taut_shape_sample(const strum_taut_shape *shape, size_t count,
-                                     strum_taut_point *points, strum_error *fault)
+                                     strum_taut_point *points, strum_error *error)
 {
     if (count < 2)
-        return error_set(fault, STRUM_ERR_RANGE, "a shape has at least 2 points");
+        return error_set(error, STRUM_ERR_RANGE, "a shape has at least 2 points");
     for (size_t k = 0; k < count; k++)
         taut_shape_point(shape, shape->chain->length * ((double)k / (double)(count - 1)),
                          &points[k]);
     for (size_t k = 0; k < count; k++)
         if (!isfinite(cabs(points[k].displacement)) || !isfinite(cabs(points[k].force)))
-            return error_set(fault, STRUM_ERR_RANGE,
+            return error_set(error, STRUM_ERR_RANGE,
                              "the shape spans more than a double does: its decay is too large");
     /* exact where the ends are held */
     if (!shape->chain->free_left)

@@ -10,63 +10,16 @@
  */
 #include "core/taut/taut.h"
 
-/* Where a real shot stands: y, U = V/w (then a cable only turns the state) and their
- * derivatives by w, times 2^-exponent. */
-typedef struct station {
-    double y, u, dy, du;
-    long exponent;
-} station;
-
-/* sin and cos once, the rest is a rotation: d/dw turns by the travel time. */
-static long shoot_cable(const taut_component *c, double w, station *p)
-{
-    const double travel = c->length * c->cable.slowness, z = c->cable.impedance;
-    double sine, cosine;
-    sincos(w * travel, &sine, &cosine);
-    const double y = cosine * p->y + sine / z * p->u, u = cosine * p->u - z * sine * p->y;
-    const double dy = cosine * p->dy + sine / z * p->du + travel / z * u;
-    const double du = cosine * p->du - z * sine * p->dy - travel * z * y;
-    const bool crosses = (signbit(p->y) != 0) ^ (signbit(y) != 0) ^ (signbit(sine) != 0);
-    *p = (station){y, u, dy, du, p->exponent};
-    return taut_half_waves(w * travel, sine) + crosses;
-}
-
-static void shoot_ground(const taut_component *c, double w, station *p)
-{
-    const double k = c->ground.stiffness / w, m = c->ground.mass;
-    p->du += (k - m * w) * p->dy - (k / w + m) * p->y;
-    p->u += (k - m * w) * p->y;
-}
-
-static long zeros_of(const taut_component *c, double w, const taut_factor *f)
-{
-    const double n12 = creal(f->n12.v);
-    switch (c->kind) {
-    case TAUT_CABLE: /* without mass */
-        return 0;
-    case TAUT_WKB:
-        return taut_half_waves(taut_wkb_phase(c, w), n12);
-    case TAUT_VARYING:
-        return taut_varying_zeros(c, w);
-    case TAUT_BODY:
-        return taut_body_zeros(c, w, n12);
-    case TAUT_HANGING:
-        return creal(f->den.v) < 0.0;
-    default:
-        return 0;
-    }
-}
-
 /* Any component by its matrix at s = i w, where all of it is real; U = V/w. N without its
  * denominator turns the sign of the whole state at most, which no later count sees. */
-static long shoot_matrix(const taut_component *c, double w, station *p)
+static long shoot_matrix(const taut_component *c, double w, taut_station *p)
 {
     const taut_at at = {{CMPLX(0.0, w), CMPLX(0.0, 1.0)}, {0.0, 0.0}};
     taut_factor f;
-    taut_component_factor(c, &at, &f);
+    c->model->factor(c, &at, &f);
     const double n11 = creal(f.n11.v), n12 = creal(f.n12.v), n21 = creal(f.n21.v),
                  n22 = creal(f.n22.v);
-    const station q = *p;
+    const taut_station q = *p;
     /* without t12 a y of 0 keeps its sign bit: -0 + 0 would lose it */
     p->y = n12 != 0.0 ? n11 * q.y + n12 * w * q.u : n11 * q.y;
     p->u = n21 / w * q.y + n22 * q.u;
@@ -74,14 +27,14 @@ static long shoot_matrix(const taut_component *c, double w, station *p)
         n11 * q.dy + n12 * w * q.du + creal(f.n11.d) * q.y + (creal(f.n12.d) * w + n12) * q.u;
     p->du = n21 / w * q.dy + n22 * q.du + (creal(f.n21.d) - n21 / w) / w * q.y +
             creal(f.n22.d) * q.u;
-    long count = zeros_of(c, w, &f);
+    long count = c->model->zeros != NULL ? c->model->zeros(c, w, &f) : 0;
     if (n12 != 0.0)
         count += (signbit(q.y) != 0) ^ (signbit(p->y) != 0) ^ (signbit(n12) != 0);
     return count;
 }
 
 /* Keeps the state near 1; powers of two change no digit. */
-static void rescale(station *p)
+static void rescale(taut_station *p)
 {
     const double size = fabs(p->y) + fabs(p->u);
     if (size > 0x1p-80 && size < 0x1p80)
@@ -97,16 +50,11 @@ static void rescale(station *p)
 
 void taut_shoot(const strum_taut *chain, double w, taut_shot *shot)
 {
-    station p = {.y = chain->free_left, .u = !chain->free_left};
+    taut_station p = {.y = chain->free_left, .u = !chain->free_left};
     long count = 0;
     for (size_t i = 0; i < chain->count; i++) {
         const taut_component *c = &chain->components[i];
-        if (c->kind == TAUT_CABLE && c->cable.impedance > 0.0)
-            count += shoot_cable(c, w, &p);
-        else if (c->kind == TAUT_GROUND)
-            shoot_ground(c, w, &p);
-        else
-            count += shoot_matrix(c, w, &p);
+        count += c->model->shoot != NULL ? c->model->shoot(c, w, &p) : shoot_matrix(c, w, &p);
         rescale(&p);
     }
     if (chain->free_right)
@@ -139,10 +87,10 @@ void taut_characteristic(const strum_taut *chain, const taut_at *at, taut_value 
     for (size_t i = 0; i < chain->count; i++) {
         const taut_component *c = &chain->components[i];
         taut_factor f;
-        taut_component_factor(c, at, &f);
+        c->model->factor(c, at, &f);
         log_scale += f.log_scale;
         const dual before = y;
-        if (c->kind == TAUT_GROUND) {
+        if (c->model->adds_only) {
             v = dual_add(v, dual_mul(f.n21, y));
         } else {
             y = dual_add(dual_mul(f.n11, y), dual_mul(f.n12, v));

@@ -8,126 +8,14 @@
 #ifndef CORE_TAUT_TAUT_H
 #define CORE_TAUT_TAUT_H
 
-#include <complex.h>
-#include <math.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
 #include <strum/taut.h>
 
-#include "core/numerics/status.h"
 #include "core/numerics/work.h"
-
-typedef double _Complex cplx;
-
-/* A number and its derivative along a direction (forward differentiation). */
-typedef struct dual {
-    cplx v, d;
-} dual;
-
-static inline dual dual_of(double a)
-{
-    return (dual){a, 0.0};
-}
-static inline dual dual_add(dual a, dual b)
-{
-    return (dual){a.v + b.v, a.d + b.d};
-}
-static inline dual dual_sub(dual a, dual b)
-{
-    return (dual){a.v - b.v, a.d - b.d};
-}
-static inline dual dual_scale(double k, dual a)
-{
-    return (dual){k * a.v, k * a.d};
-}
-/* Products and quotients by hand: C's own check every product for infinities. */
-static inline cplx times(cplx a, cplx b)
-{
-    return CMPLX(creal(a) * creal(b) - cimag(a) * cimag(b),
-                 creal(a) * cimag(b) + cimag(a) * creal(b));
-}
-static inline cplx over(cplx a, cplx b)
-{
-    const double size = fmax(fabs(creal(b)), fabs(cimag(b)));
-    const cplx u = CMPLX(creal(b) / size, -cimag(b) / size);
-    return times(a, u) / (size * (creal(u) * creal(u) + cimag(u) * cimag(u)));
-}
-static inline dual dual_mul(dual a, dual b)
-{
-    return (dual){times(a.v, b.v), times(a.v, b.d) + times(a.d, b.v)};
-}
-static inline dual dual_div(dual a, dual b)
-{
-    const cplx q = over(a.v, b.v);
-    return (dual){q, over(a.d - times(q, b.d), b.v)};
-}
-
-/* Where a chain is evaluated, and along which direction the derivative is taken: `factor`
- * multiplies every finite damping. */
-typedef struct taut_at {
-    dual s, factor;
-} taut_at;
-
-static inline taut_at taut_at_s(cplx s, double factor)
-{
-    return (taut_at){{s, 1.0}, {factor, 0.0}};
-}
-
-/* N (scaled by e^{-log_scale}) and den of a component. */
-typedef struct taut_factor {
-    dual n11, n12, n21, n22, den;
-    double log_scale;
-} taut_factor;
-
-typedef enum taut_kind {
-    TAUT_CABLE,
-    TAUT_WKB,
-    TAUT_VARYING,
-    TAUT_BODY,
-    TAUT_HANGING,
-    TAUT_GROUND,
-    TAUT_SUPPORT
-} taut_kind;
-
-typedef struct taut_link {
-    double left, right, length; /* of its ends from the centre of mass; their sum */
-    double mass, inertia;
-    double pull; /* axial forces times arms: the stiffness that turning it meets, N m */
-} taut_link;
-
-typedef struct taut_joint {
-    double stiffness, damping; /* N m, N m s */
-} taut_joint;
-
-/* A component made ready: checked, limits resolved (a locked joint makes one link of two, a
- * body without length is a point mass, and so on). */
-typedef struct taut_component {
-    taut_kind kind;
-    double length;
-    union {
-        struct {
-            double tension, mass, drag; /* per length */
-            double slowness, impedance; /* sqrt(mass/tension), sqrt(mass tension) */
-        } cable;
-        struct {
-            double tension_0, tension_1, mass;
-        } varying;
-        struct {
-            taut_link *links;
-            taut_joint *joints;
-            double *poles; /* w^2 of the body with both ends held, ascending; `pole_count` */
-            int count, pole_count;
-        } body;
-        struct {
-            double mass, stiffness, damping;
-        } hanging, ground; /* ground: inertance, stiffness, damping */
-        struct {
-            double pivot, ratio, stiffness, inertia;
-        } support;
-    };
-} taut_component;
+#include "core/taut/components/component.h"
 
 struct strum_taut {
     atomic_uint references; /* the caller's, and one of each shape */
@@ -141,37 +29,11 @@ struct strum_taut {
     taut_component *components;
 };
 
-/* A counted reference, given back by strum_taut_free. */
-strum_taut *taut_ref(const strum_taut *chain);
-
-/* ---- component models: one file a physical model ---- */
-
-/* cosh(g), sinh(g)/gamma and their derivatives for a wave of gamma^2 = q along `length`. */
-void taut_wave(dual q, double length, dual *cosine, dual *sine, double *log_scale);
-/* Zeros (half waves completed) up to phase `phase`, told apart by the sign of its computed
- * sine: never by comparing roundings of pi. */
-long taut_half_waves(double phase, double sine);
-
-void taut_cable_factor(const taut_component *c, const taut_at *at, taut_factor *f);
-void taut_wkb_factor(const taut_component *c, const taut_at *at, taut_factor *f);
-double taut_wkb_phase(const taut_component *c, double w);
-void taut_varying_factor(const taut_component *c, const taut_at *at, taut_factor *f);
-/* Modes of a varying cable with both ends held below w. */
-long taut_varying_zeros(const taut_component *c, double w);
-void taut_body_factor(const taut_component *c, const taut_at *at, taut_factor *f);
-long taut_body_zeros(const taut_component *c, double w, double n12);
-/* y at the count + 1 ends of the links, for the state (y, V) at the left end. */
-void taut_body_joints(const taut_component *c, const taut_at *at, const cplx state[2], cplx *y);
-strum_status taut_body_make(const strum_taut_component *given, taut_component *c,
-                            strum_error *fault);
-void taut_point_factor(const taut_component *c, const taut_at *at, taut_factor *f);
-
 /* Time a wave takes through a component, s. */
 double taut_travel_time(const taut_component *c);
-/* Any component. */
-void taut_component_factor(const taut_component *c, const taut_at *at, taut_factor *f);
-/* The first `x` of a cable (uniform, WKB or varying) as a component of its own. */
-taut_component taut_component_part(const taut_component *c, double x);
+
+/* A counted reference, given back by strum_taut_free. */
+strum_taut *taut_ref(const strum_taut *chain);
 
 /* ---- shooting ---- */
 

@@ -24,11 +24,11 @@ static size_t place_of(const taut_assembly *a, int i, int j)
  * ends held. */
 static long add_wire(const taut_assembly *a, const taut_wire *wire, double w, double *matrix)
 {
-    const double z = wire->cable->cable.impedance * w;
+    const double z = wire->impedance * w;
     long held = 0;
     for (int part = 0; part < 2; part++) {
         const double share = part == 0 ? GOLDEN : 1.0 - GOLDEN;
-        const double phase = share * w * wire->cable->cable.slowness * wire->cable->length;
+        const double phase = share * w * wire->slowness * wire->length;
         const double lever = part == 0 ? wire->lever : 1.0;
         const double sine = sin(phase), cosine = cos(phase);
         const int i = wire->node[part], j = wire->node[part + 1];

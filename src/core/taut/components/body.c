@@ -9,10 +9,12 @@
  *     y_i = y_{i-1} + h th_i
  *     V_i = V_{i-1} - W M (y_{i-1} + a th_i)
  *     m_i = m_{i-1} + (S - W I + W M a b) th_i - h V_{i-1} + W M b y_{i-1}
- * where m_i = kappa_i (th_{i+1} - th_i) is the moment of joint i and m_0 = m_n = 0. Summing the moments from the left keeps each
- * kappa in one equation, so that no digits are lost however stiff a joint is.
+ * where m_i = kappa_i (th_{i+1} - th_i) is the moment of joint i and m_0 = m_n = 0. Summing the
+ * moments from the left keeps each kappa in one equation, so that no digits are lost however
+ * stiff a joint is.
  */
-#include "core/taut/taut.h"
+#include "core/taut/assembly.h"
+#include "core/taut/shape.h"
 
 #include <float.h>
 #include <lapacke.h>
@@ -117,7 +119,7 @@ static dual body_solve(const taut_component *c, const taut_at *at, dual th[LINKS
     return dual_sub(dual_mul(g[0][0], g[1][1]), dual_mul(g[0][1], g[1][0]));
 }
 
-void taut_body_factor(const taut_component *c, const taut_at *at, taut_factor *f)
+static void body_factor(const taut_component *c, const taut_at *at, taut_factor *f)
 {
     dual th[LINKS][2];
     const dual den = body_solve(c, at, th), s2 = dual_mul(at->s, at->s);
@@ -136,7 +138,9 @@ void taut_body_factor(const taut_component *c, const taut_at *at, taut_factor *f
     *f = (taut_factor){out[0][0], out[0][1], out[1][0], out[1][1], den, 0.0};
 }
 
-void taut_body_joints(const taut_component *c, const taut_at *at, const cplx state[2], cplx *y)
+/* y at the count + 1 ends of the links, for the state (y, V) at the left end. */
+static void body_joints(const taut_component *c, const taut_at *at, const cplx state[2],
+                        cplx *y)
 {
     dual th[LINKS][2];
     const dual den = body_solve(c, at, th);
@@ -147,8 +151,9 @@ void taut_body_joints(const taut_component *c, const taut_at *at, const cplx sta
 }
 
 /* Modes below w with both ends held: there n12 = 0. */
-long taut_body_zeros(const taut_component *c, double w, double n12)
+static long body_zeros(const taut_component *c, double w, const taut_factor *f)
 {
+    const double n12 = creal(f->n12.v);
     long below = 0;
     while (below < c->body.pole_count && c->body.poles[below] < w * w)
         below++;
@@ -161,6 +166,118 @@ long taut_body_zeros(const taut_component *c, double w, double n12)
     }
     return below;
 }
+
+static bool body_damped(const taut_component *c)
+{
+    for (int i = 0; i + 1 < c->body.count; i++)
+        if (c->body.joints[i].damping > 0.0)
+            return true;
+    return false;
+}
+
+/* ---- shapes ---- */
+
+static void body_inside(const strum_taut_shape *shape, size_t i, double x, cplx *y, cplx *v)
+{
+    const taut_component *c = &shape->chain->components[i];
+    const cplx state[2] = {shape->y[i], shape->v[i]};
+    cplx joint[STRUM_TAUT_LINKS_MAX + 1];
+    body_joints(c, &shape->at, state, joint);
+    double start = 0.0;
+    int k = 0;
+    while (k + 1 < c->body.count && x > start + c->body.links[k].length)
+        start += c->body.links[k++].length;
+    const double share = (x - start) / c->body.links[k].length;
+    *y = joint[k] + share * (joint[k + 1] - joint[k]);
+    /* V is what the cable carries at either end; inside, it changes at the masses */
+    *v = x < 0.5 * c->length ? state[1] : shape->v[i + 1];
+}
+
+static void body_slopes(const strum_taut_shape *shape, size_t i, double *left, double *right)
+{
+    const taut_component *c = &shape->chain->components[i];
+    cplx y[STRUM_TAUT_LINKS_MAX + 1];
+    const cplx state[2] = {shape->y[i], shape->v[i]};
+    body_joints(c, &shape->at, state, y);
+    *left = creal(y[1] - y[0]);
+    *right = creal(y[c->body.count] - y[c->body.count - 1]);
+}
+
+static strum_status body_survey(strum_taut_shape *shape, size_t i, strum_error *error)
+{
+    const taut_component *c = &shape->chain->components[i];
+    const cplx state[2] = {shape->y[i], shape->v[i]};
+    cplx joint[STRUM_TAUT_LINKS_MAX + 1];
+    body_joints(c, &shape->at, state, joint);
+    joint[c->body.count] = shape->y[i + 1]; /* the same sign for the next component */
+    /* at a held end y has the sign of the force there, and a body may turn against it */
+    if (taut_at_held_end(shape, i))
+        joint[0] = copysign(DBL_MIN, creal(joint[1]));
+    if (taut_at_held_end(shape, i + 1))
+        joint[c->body.count] = copysign(DBL_MIN, creal(joint[c->body.count - 1]));
+    double from = 0.0;
+    strum_status status = STRUM_OK;
+    for (int k = 0; k < c->body.count && status == STRUM_OK; k++) {
+        const double a = creal(joint[k]), b = creal(joint[k + 1]);
+        status = taut_straight_survey(shape, i, from, a, c->body.links[k].length, b, error);
+        from += c->body.links[k].length;
+        if (k + 1 < c->body.count && status == STRUM_OK && b * (b - a) >= 0.0 &&
+            b * (creal(joint[k + 2]) - b) <= 0.0 && b != 0.0)
+            status = taut_antinode_add(shape, shape->x[i] + from, b, error);
+    }
+    return status;
+}
+
+/* ---- the second method ---- */
+
+/* By the displacements y_i of the joints: th_i = (y_i - y_{i-1})/h_i. */
+static void body_place(taut_cursor *at, const taut_component *c)
+{
+    const int n = c->body.count + 1;
+    double k[(STRUM_TAUT_LINKS_MAX + 1) * (STRUM_TAUT_LINKS_MAX + 1)] = {0.0};
+    double d[(STRUM_TAUT_LINKS_MAX + 1) * (STRUM_TAUT_LINKS_MAX + 1)] = {0.0};
+    double m[(STRUM_TAUT_LINKS_MAX + 1) * (STRUM_TAUT_LINKS_MAX + 1)] = {0.0};
+    for (int i = 0; i < c->body.count; i++) {
+        const taut_link *l = &c->body.links[i];
+        const double centre[2] = {l->right / l->length, l->left / l->length};
+        const double turn[2] = {-1.0 / l->length, 1.0 / l->length};
+        for (int p = 0; p < 2; p++)
+            for (int q = 0; q < 2; q++) {
+                m[(i + p) * n + i + q] +=
+                    l->mass * centre[p] * centre[q] + l->inertia * turn[p] * turn[q];
+                k[(i + p) * n + i + q] += l->pull * turn[p] * turn[q];
+            }
+        if (i + 1 == c->body.count)
+            continue;
+        const taut_joint *joint = &c->body.joints[i];
+        const double next = 1.0 / c->body.links[i + 1].length;
+        const double bend[3] = {-turn[0], -turn[1] - next, next};
+        for (int p = 0; p < 3; p++)
+            for (int q = 0; q < 3; q++) {
+                k[(i + p) * n + i + q] += joint->stiffness * bend[p] * bend[q];
+                d[(i + p) * n + i + q] += joint->damping * bend[p] * bend[q];
+            }
+    }
+    taut_element_place(at, n, k, d, m);
+}
+
+static void body_release(taut_component *c)
+{
+    free(c->body.links);
+}
+
+static const taut_model body_model = {
+    .states = 2,
+    .flexible = true,
+    .factor = body_factor,
+    .zeros = body_zeros,
+    .damped = body_damped,
+    .inside = body_inside,
+    .slopes = body_slopes,
+    .survey = body_survey,
+    .place = body_place,
+    .release = body_release,
+};
 
 /* ---- making one ready ---- */
 
@@ -181,7 +298,7 @@ static taut_link link_join(taut_link l, taut_link r)
 /* Squares of the frequencies with both ends held, by the interior joint displacements: th_i =
  * (y_i - y_{i-1})/h_i. Largest 1/w^2 of the pencil (M, K), K definite: massless bodies have
  * fewer. */
-static strum_status body_poles(taut_component *c, strum_error *fault)
+static strum_status body_poles(taut_component *c, strum_error *error)
 {
     const int n = c->body.count, size = n - 1;
     double m[LINKS * LINKS] = {0}, k[LINKS * LINKS] = {0}, mu[LINKS];
@@ -214,7 +331,7 @@ static strum_status body_poles(taut_component *c, strum_error *fault)
     const lapack_int info =
         LAPACKE_dsygv(LAPACK_ROW_MAJOR, 1, 'N', 'U', size, m, size, k, size, mu);
     if (info != 0)
-        return error_set(fault, info < -1000 ? STRUM_ERR_MEMORY : STRUM_ERR_INTERNAL,
+        return error_set(error, info < -1000 ? STRUM_ERR_MEMORY : STRUM_ERR_INTERNAL,
                          "the resonances of a body of %d links were not found", n);
     c->body.pole_count = 0;
     for (int i = size - 1; i >= 0; i--)
@@ -224,13 +341,14 @@ static strum_status body_poles(taut_component *c, strum_error *fault)
 }
 
 static strum_status body_store(taut_component *c, const taut_link *links,
-                               const taut_joint *joints, int count, strum_error *fault)
+                               const taut_joint *joints, int count, strum_error *error)
 {
     /* one block, owned by the first pointer */
     const size_t n = (size_t)count;
     c->body.links = malloc(n * (sizeof *links + sizeof *joints + sizeof(double)));
     if (c->body.links == NULL)
-        return error_set(fault, STRUM_ERR_MEMORY, "no memory for a body of %d links", count);
+        return error_set(error, STRUM_ERR_MEMORY, "no memory for a body of %d links", count);
+    c->model = &body_model;
     c->body.joints = (taut_joint *)(c->body.links + count);
     c->body.poles = (double *)(c->body.joints + count);
     c->body.count = count;
@@ -239,11 +357,35 @@ static strum_status body_store(taut_component *c, const taut_link *links,
         c->body.links[i] = links[i];
         c->body.joints[i] = i + 1 < count ? joints[i] : (taut_joint){0.0, 0.0};
     }
-    return count > 1 ? body_poles(c, fault) : STRUM_OK;
+    return count > 1 ? body_poles(c, error) : STRUM_OK;
 }
 
-strum_status taut_body_make(const strum_taut_component *given, taut_component *c,
-                            strum_error *fault)
+static const char *body_fault(const strum_taut_component *g)
+{
+    if (g->body.links == NULL || g->body.count < 1 || g->body.count > STRUM_TAUT_LINKS_MAX ||
+        (g->body.count > 1 && g->body.joints == NULL))
+        return "a body has 1 to 16 links, and a joint between any two";
+    for (size_t i = 0; i < g->body.count; i++) {
+        const strum_taut_link *l = &g->body.links[i];
+        if (!taut_not_negative(l->left) || !taut_not_negative(l->right) ||
+            !taut_not_negative(l->mass) || !taut_not_negative(l->inertia))
+            return "arms, masses and inertias of links cannot be negative";
+        if (g->body.count > 1 && !taut_positive(l->left + l->right))
+            return "every link of several has a length";
+        if (i + 1 == g->body.count)
+            continue;
+        const strum_taut_joint *j = &g->body.joints[i];
+        if (!taut_not_negative(j->spring_arm) || !taut_not_negative(j->damper_arm) ||
+            !taut_not_negative(j->stiffness) || !taut_damping_fits(j->damping) ||
+            !taut_positive(j->force))
+            return "arms, stiffness and damping of joints cannot be negative, their force is "
+                   "positive";
+    }
+    return NULL;
+}
+
+static strum_status body_make(const strum_taut_component *given, taut_component *c,
+                              strum_error *error)
 {
     taut_link links[LINKS];
     taut_joint joints[LINKS];
@@ -274,10 +416,10 @@ strum_status taut_body_make(const strum_taut_component *given, taut_component *c
         count++;
     }
     if (c->length == 0.0) { /* a lump without length is a point mass (Li, A.8) */
-        c->kind = TAUT_GROUND;
-        c->ground.mass = links[0].mass;
-        c->ground.stiffness = c->ground.damping = 0.0;
+        taut_ground_set_mass(c, links[0].mass);
         return STRUM_OK;
     }
-    return body_store(c, links, joints, count, fault);
+    return body_store(c, links, joints, count, error);
 }
+
+const taut_kind taut_body_kind = {true, body_fault, body_make};

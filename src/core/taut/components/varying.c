@@ -5,7 +5,8 @@
  * Where |u| >= 20 on a stretch, Hankel's expansions give it in one step whatever the number of
  * waves (smallest term e^{-2 |u|} < 1e-17); below, power series about successive points.
  */
-#include "core/taut/taut.h"
+#include "core/taut/assembly.h"
+#include "core/taut/shape.h"
 
 #define HANKEL_FROM 20.0
 /* Largest |change of T|/T and |rho s^2 h^2/T| of one power series. */
@@ -180,16 +181,68 @@ static void varying(const taut_component *c, const taut_at *at, taut_factor *f, 
     }
 }
 
-void taut_varying_factor(const taut_component *c, const taut_at *at, taut_factor *f)
+static void varying_factor(const taut_component *c, const taut_at *at, taut_factor *f)
 {
     varying(c, at, f, NULL);
 }
 
-long taut_varying_zeros(const taut_component *c, double w)
+static long varying_zeros(const taut_component *c, double w, const taut_factor *f)
 {
     const taut_at at = taut_at_s(CMPLX(0.0, w), 0.0);
-    taut_factor f;
+    taut_factor again;
     long zeros = 0;
-    varying(c, &at, &f, &zeros);
+    (void)f;
+    varying(c, &at, &again, &zeros);
     return zeros;
 }
+
+static void varying_place(taut_cursor *at, const taut_component *c)
+{
+    const taut_element_cable cable = {.length = c->length,
+                                      .tension_0 = c->varying.tension_0,
+                                      .tension_1 = c->varying.tension_1,
+                                      .mass = c->varying.mass};
+    taut_elements_place(at, &cable);
+}
+
+static const taut_model varying_model = {
+    .states = 2,
+    .flexible = true,
+    .factor = varying_factor,
+    .zeros = varying_zeros,
+    .travel_time = taut_varying_travel_time,
+    .part = taut_varying_part,
+    .inside = taut_part_inside,
+    .survey = taut_varying_survey,
+    .place = varying_place,
+};
+
+/* ---- making one ready ---- */
+
+static const char *varying_fault(const strum_taut_component *g)
+{
+    if (fmax(g->tension_left, g->tension_right) >
+        STRUM_TAUT_TENSION_FACTOR_MAX * fmin(g->tension_left, g->tension_right))
+        return "the tensions of a varying cable differ by a factor of 1e9 at most";
+    return taut_positive(g->varying.length) && taut_positive(g->varying.mass_per_length)
+               ? NULL
+               : "length and mass must be positive";
+}
+
+static strum_status varying_make(const strum_taut_component *g, taut_component *c,
+                                 strum_error *error)
+{
+    (void)error;
+    c->length = g->varying.length;
+    if (g->tension_left == g->tension_right) {
+        taut_cable_set(c, g->tension_left, g->varying.mass_per_length, 0.0);
+        return STRUM_OK;
+    }
+    c->model = g->varying.wkb ? &taut_wkb : &varying_model;
+    c->varying.tension_0 = g->tension_left;
+    c->varying.tension_1 = g->tension_right;
+    c->varying.mass = g->varying.mass_per_length;
+    return STRUM_OK;
+}
+
+const taut_kind taut_varying_kind = {true, varying_fault, varying_make};
