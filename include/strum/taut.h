@@ -128,7 +128,7 @@ typedef struct strum_taut strum_taut;
 /* A chain of `count` components from left to right. */
 strum_status strum_taut_make(const strum_taut_component *components, size_t count,
                              strum_taut_end left, strum_taut_end right, strum_taut **chain,
-                             strum_error *fault);
+                             strum_error *error);
 void strum_taut_free(strum_taut **chain);
 /* Sum of the lengths of the components, m. */
 double strum_taut_length(const strum_taut *chain);
@@ -142,9 +142,9 @@ bool strum_taut_is_damped(const strum_taut *chain);
  * ends held), STRUM_ERR_RANGE where an entry is beyond a double. */
 strum_status strum_taut_component_matrix(const strum_taut *chain, size_t index,
                                          double frequency, double decay,
-                                         strum_complex matrix[4], strum_error *fault);
+                                         strum_complex matrix[4], strum_error *error);
 strum_status strum_taut_matrix(const strum_taut *chain, double frequency, double decay,
-                               strum_complex matrix[4], strum_error *fault);
+                               strum_complex matrix[4], strum_error *error);
 
 /* ---- modes without damping ---- */
 
@@ -156,7 +156,8 @@ long strum_taut_count(const strum_taut *chain, double frequency);
  * damping taken as zero. A mode that is a rigid motion has frequency 0. STRUM_ERR_IMPOSSIBLE
  * when the chain (without any cable) has fewer modes. */
 strum_status strum_taut_frequencies(const strum_taut *chain, const long *numbers, size_t count,
-                                    double *frequencies, strum_error *fault);
+                                    const strum_options *options, double *frequencies,
+                                    strum_error *error);
 
 /* ---- modes with damping ---- */
 
@@ -220,7 +221,8 @@ void strum_taut_roots_free(strum_taut_roots **roots);
  * `decay` is that of the slower of its two roots). STRUM_ERR_ACCURACY where it cannot be
  * followed. */
 strum_status strum_taut_follow(const strum_taut *chain, long mode, const double *factors,
-                               size_t count, strum_taut_root *roots, strum_error *fault);
+                               size_t count, const strum_options *options,
+                               strum_taut_root *roots, strum_error *error);
 
 /* ---- shapes ---- */
 
@@ -239,11 +241,12 @@ typedef struct strum_taut_shape strum_taut_shape;
 /* The shape of a root of the chain: shooting from both ends, joined where the motion is
  * largest. `root->frequency` > 0. STRUM_ERR_METHOD above STRUM_TAUT_NODES_MAX nodes. */
 strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_root *root,
-                                   strum_taut_shape **shape, strum_error *fault);
+                                   const strum_options *options, strum_taut_shape **shape,
+                                   strum_error *error);
 void strum_taut_shape_free(strum_taut_shape **shape);
 /* At `count` >= 2 equally spaced points, ends included. */
 strum_status strum_taut_shape_sample(const strum_taut_shape *shape, size_t count,
-                                     strum_taut_point *points, strum_error *fault);
+                                     strum_taut_point *points, strum_error *error);
 /* Nodes (ends and whatever rests with them excluded; the pin of a support included) and
  * antinodes (local largest |y|, cusps at masses included) of a root without decay, ascending;
  * owned by the shape. A decaying root has none: no point of it stays at rest. */

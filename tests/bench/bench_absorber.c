@@ -136,7 +136,7 @@ static void undamped(double k, double *guesses)
     const long modes[] = {1, 2};
     strum_taut *chain;
     if (build(NULL, values, &chain, NULL) != STRUM_OK ||
-        strum_taut_frequencies(chain, modes, 2, guesses, NULL) != STRUM_OK)
+        strum_taut_frequencies(chain, modes, 2, NULL, guesses, NULL) != STRUM_OK)
         exit(1);
     strum_taut_free(&chain);
 }

@@ -92,7 +92,7 @@ static void frequencies(void *data)
 {
     task *t = data;
     strum_error fault = {0};
-    if (strum_taut_frequencies(t->chain, t->numbers, (size_t)t->modes, t->w, &fault) !=
+    if (strum_taut_frequencies(t->chain, t->numbers, (size_t)t->modes, NULL, t->w, &fault) !=
         STRUM_OK)
         fail("strum_taut_frequencies", fault.reason);
 }

@@ -23,6 +23,8 @@ strum_status taut_node_add(strum_taut_shape *shape, double x, strum_error *error
     const strum_status status = taut_nodes_fit((double)shape->node_count + 1.0, error);
     if (status != STRUM_OK)
         return status;
+    if (work_spend(shape->work, 0.1) != STRUM_OK)
+        return work_error(shape->work, error);
     if (shape->node_count == shape->node_room) {
         const size_t room = 2 * shape->node_room + 16;
         double *more = realloc(shape->nodes, room * sizeof *more);

@@ -130,7 +130,7 @@ static cplx largest(const strum_taut_shape *shape)
         const taut_component *c = &chain->components[i];
         const double waves = cabs(shape->at.s.v) * taut_travel_time(c) / M_PI;
         const int samples = 4 * STRUM_TAUT_LINKS_MAX + (int)fmin(16.0 * waves, 1e5);
-        if (c->length == 0.0)
+        if (c->length == 0.0 || work_spend(shape->work, 0.3 * samples) != STRUM_OK)
             continue;
         for (int k = 0; k <= samples; k++) {
             const double x = c->length * k / samples, size = size_at(shape, i, x);
@@ -186,8 +186,10 @@ static void scale_by_antinodes(strum_taut_shape *shape)
 /* ---- public ---- */
 
 strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_root *root,
-                                   strum_taut_shape **shape, strum_error *error)
+                                   const strum_options *options, strum_taut_shape **shape,
+                                   strum_error *error)
 {
+    work spent = work_begin(options);
     *shape = NULL;
     if (!(root->frequency > 0.0) || !isfinite(root->frequency) || !isfinite(root->decay))
         return error_set(error, STRUM_ERR_RANGE, "a shape needs a frequency above 0");
@@ -203,6 +205,7 @@ strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_roo
         free(block);
     } else {
         made->chain = taut_ref(chain);
+        made->work = &spent;
         made->at = taut_at_s(CMPLX(-root->decay, root->frequency), 1.0);
         made->y = (cplx *)block;
         made->v = made->y + stations;
@@ -214,6 +217,9 @@ strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_roo
             scale_by_antinodes(made);
         else if (status == STRUM_OK)
             scale_states(made, largest(made));
+        if (status == STRUM_OK && spent.status != STRUM_OK)
+            status = work_error(&spent, error);
+        made->work = NULL;
         *shape = made;
     }
     free(arrows);

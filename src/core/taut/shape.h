@@ -6,6 +6,7 @@
 
 struct strum_taut_shape {
     strum_taut *chain; /* a counted reference */
+    work *work;        /* while it is made */
     taut_at at;
     double *x;   /* of the count + 1 stations, left of each component and at the right end */
     cplx *y, *v; /* there; the same block as x */

@@ -48,6 +48,11 @@ static void rescale(taut_station *p)
     p->exponent += exponent;
 }
 
+double taut_shot_us(const strum_taut *chain)
+{
+    return 0.05 * (double)chain->count;
+}
+
 void taut_shoot(const strum_taut *chain, double w, taut_shot *shot)
 {
     taut_station p = {.y = chain->free_left, .u = !chain->free_left};

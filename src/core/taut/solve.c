@@ -13,12 +13,6 @@
 
 /* ---- undamped chains ---- */
 
-/* Estimated microseconds of one shot along the chain. */
-static double shot_us(const strum_taut *chain)
-{
-    return 0.05 * (double)chain->count;
-}
-
 static strum_status undamped(taut_solve *s, const long *numbers, size_t count)
 {
     const strum_taut *chain = s->search.chain;
@@ -29,7 +23,7 @@ static strum_status undamped(taut_solve *s, const long *numbers, size_t count)
     double *w = malloc(count * sizeof *w);
     if (w == NULL)
         return error_set(s->fault, STRUM_ERR_MEMORY, "no memory for %zu modes", count);
-    strum_status status = strum_taut_frequencies(chain, numbers, count, w, s->fault);
+    strum_status status = taut_frequencies(chain, numbers, count, &s->search.work, w, s->fault);
     for (size_t i = 0; i < count && status == STRUM_OK; i++) {
         taut_shot below = {.count = 0}, above, there;
         taut_shoot(chain, w[i] > 0.0 ? w[i] * (1.0 + 1e-10) : 1e-30, &above);
@@ -43,7 +37,8 @@ static strum_status undamped(taut_solve *s, const long *numbers, size_t count)
         out->found += below.count < numbers[i] && numbers[i] <= above.count;
         status = taut_roots_add(s->out, (strum_taut_root){numbers[i], w[i], 0.0, INFINITY},
                                 false, s->fault);
-        if (status == STRUM_OK && work_spend(&s->search.work, 3 * shot_us(chain)) != STRUM_OK)
+        if (status == STRUM_OK &&
+            work_spend(&s->search.work, 3 * taut_shot_us(chain)) != STRUM_OK)
             status = work_error(&s->search.work, s->fault);
     }
     if (status == STRUM_OK && out->found != out->expected)

@@ -44,6 +44,8 @@ typedef struct taut_shot {
     long count, exponent;
 } taut_shot;
 
+/* Estimated microseconds of one shot. */
+double taut_shot_us(const strum_taut *chain);
 void taut_shoot(const strum_taut *chain, double w, taut_shot *shot);
 
 /* The characteristic function at a point, and its derivative along at's direction, both times
@@ -54,6 +56,10 @@ typedef struct taut_value {
 } taut_value;
 
 void taut_characteristic(const strum_taut *chain, const taut_at *at, taut_value *value);
+
+/* strum_taut_frequencies within the work of a solve (NULL: without limit). */
+strum_status taut_frequencies(const strum_taut *chain, const long *numbers, size_t count,
+                              work *spent, double *frequencies, strum_error *error);
 
 /* Typical distance of modes, rad/s. */
 double taut_spacing(const strum_taut *chain);

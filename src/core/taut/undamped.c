@@ -12,6 +12,7 @@ typedef struct cut {
     const strum_taut *chain;
     const long *numbers;
     double *frequencies;
+    work *work;
 } cut;
 
 /* Zero of the inverse cubic through both ends of the bracket with both slopes; NaN when the
@@ -28,9 +29,18 @@ static double interpolate(const taut_shot *a, const taut_shot *b)
     return a->w - a->f / a->df + a->f * a->f * (c0 - fb * (c1 - c0) / (fb - a->f));
 }
 
+/* A shot, counted as work; false when no more is allowed. */
+static bool shoot(const cut *c, double w, taut_shot *shot)
+{
+    if (work_spend(c->work, taut_shot_us(c->chain)) != STRUM_OK)
+        return false;
+    taut_shoot(c->chain, w, shot);
+    return true;
+}
+
 /* The one mode between two shots. Stops when the next Newton step's error, at most its square
  * over the distance to the next mode, is below rounding. */
-static double refine(const strum_taut *chain, taut_shot lo, taut_shot hi)
+static double refine(const cut *c, taut_shot lo, taut_shot hi)
 {
     const double first = lo.w, last = hi.w;
     const long number = hi.count;
@@ -40,7 +50,8 @@ static double refine(const strum_taut *chain, taut_shot lo, taut_shot hi)
         if (!(w > lo.w && w < hi.w))
             w = lo.w + 0.5 * (hi.w - lo.w);
         taut_shot shot;
-        taut_shoot(chain, w, &shot);
+        if (!shoot(c, w, &shot))
+            break;
         const double step = shot.f / shot.df, near = fmin(w - first, last - w);
         /* a neighbour may lie on either end, up to rounding: there only the count decides */
         if (near > 1e-10 * w && fabs(step) <= fmax(1e-8 * near, DBL_EPSILON * w) &&
@@ -63,7 +74,7 @@ static void cut_between(const cut *c, const taut_shot *lo, const taut_shot *hi, 
     if (first == last)
         return;
     if (hi->count - lo->count == 1) {
-        c->frequencies[first] = refine(c->chain, *lo, *hi);
+        c->frequencies[first] = refine(c, *lo, *hi);
         return;
     }
     const double width = hi->w - lo->w;
@@ -79,7 +90,8 @@ static void cut_between(const cut *c, const taut_shot *lo, const taut_shot *hi, 
     const double w =
         lo->w + width * (halve || last - first > 1 ? 0.5 : fmin(fmax(share, 0.02), 0.98));
     taut_shot middle;
-    taut_shoot(c->chain, w, &middle);
+    if (!shoot(c, w, &middle))
+        return;
     if (middle.count < lo->count) /* roundings within one step of the grid */
         middle.count = lo->count;
     if (middle.count > hi->count)
@@ -92,12 +104,14 @@ static void cut_between(const cut *c, const taut_shot *lo, const taut_shot *hi, 
 }
 
 /* A frequency above mode `number`; false when the chain has no such mode. */
-static bool bracket(const strum_taut *chain, long number, taut_shot *hi)
+static bool bracket(const cut *c, long number, taut_shot *hi)
 {
+    const strum_taut *chain = c->chain;
     /* no multiple of pi, where modes of plain cables are */
     double w = chain->travel > 0.0 ? ((double)number + 0.7) * M_PI / chain->travel : 1.0;
     for (int i = 0; i < 100; i++, w *= 2.0) {
-        taut_shoot(chain, w, hi);
+        if (!shoot(c, w, hi))
+            return false;
         if (hi->count >= number)
             return true;
         if (chain->travel > 0.0 && i > 60)
@@ -106,35 +120,46 @@ static bool bracket(const strum_taut *chain, long number, taut_shot *hi)
     return false;
 }
 
-strum_status strum_taut_frequencies(const strum_taut *chain, const long *numbers, size_t count,
-                                    double *frequencies, strum_error *fault)
+strum_status taut_frequencies(const strum_taut *chain, const long *numbers, size_t count,
+                              work *spent, double *frequencies, strum_error *error)
 {
     for (size_t i = 0; i < count; i++)
         if (numbers[i] < 1 || numbers[i] > STRUM_TAUT_MODE_MAX ||
             (i > 0 && numbers[i] <= numbers[i - 1]))
-            return error_set(fault, STRUM_ERR_RANGE,
+            return error_set(error, STRUM_ERR_RANGE,
                              "mode numbers must ascend and lie within 1 and %d",
                              STRUM_TAUT_MODE_MAX);
     if (!chain->moves)
-        return error_set(fault, STRUM_ERR_IMPOSSIBLE,
+        return error_set(error, STRUM_ERR_IMPOSSIBLE,
                          "a chain that moves needs a cable or a body with a length");
     if (count == 0)
         return STRUM_OK;
-    taut_shot lo, hi;
-    if (!bracket(chain, numbers[count - 1], &hi))
-        return error_set(fault, STRUM_ERR_IMPOSSIBLE, "the chain has only %ld modes", hi.count);
+    taut_shot lo, hi = {.count = 0};
+    const cut c = {chain, numbers, frequencies, spent};
+    if (!bracket(&c, numbers[count - 1], &hi))
+        return spent != NULL && spent->status != STRUM_OK
+                   ? work_error(spent, error)
+                   : error_set(error, STRUM_ERR_IMPOSSIBLE, "the chain has only %ld modes",
+                               hi.count);
     /* Below every elastic mode: what counts there are rigid motions. */
     taut_shoot(chain, 1e-60 * hi.w, &lo);
     if (!isfinite(hi.f) || !isfinite(hi.df) || !isfinite(lo.f))
-        return error_set(fault, STRUM_ERR_ACCURACY,
+        return error_set(error, STRUM_ERR_ACCURACY,
                          "the components differ by more than doubles resolve");
     lo.w = 0.0;
     size_t first = 0;
     while (first < count && numbers[first] <= lo.count)
         frequencies[first++] = 0.0;
-    const cut c = {chain, numbers, frequencies};
     cut_between(&c, &lo, &hi, first, count, false);
-    return STRUM_OK;
+    return spent != NULL && spent->status != STRUM_OK ? work_error(spent, error) : STRUM_OK;
+}
+
+strum_status strum_taut_frequencies(const strum_taut *chain, const long *numbers, size_t count,
+                                    const strum_options *options, double *frequencies,
+                                    strum_error *error)
+{
+    work spent = work_begin(options);
+    return taut_frequencies(chain, numbers, count, &spent, frequencies, error);
 }
 
 double taut_spacing(const strum_taut *chain)
@@ -143,5 +168,5 @@ double taut_spacing(const strum_taut *chain)
         return M_PI / chain->travel;
     const long first = 1; /* bodies alone: their lowest mode */
     double w;
-    return strum_taut_frequencies(chain, &first, 1, &w, NULL) == STRUM_OK && w > 0.0 ? w : 1.0;
+    return taut_frequencies(chain, &first, 1, NULL, &w, NULL) == STRUM_OK && w > 0.0 ? w : 1.0;
 }

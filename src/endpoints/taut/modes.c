@@ -11,7 +11,8 @@
 #define NODES_MAX 200000
 /* One varying cable costs as much as so many other components (power series over its tension).
  */
-#define VARYING_COST 500.0
+#define VARYING_COST        500.0
+#define VARYING_COUNTED_MAX 20
 
 static const char *const methods[] = {"certified", "muller", NULL};
 
@@ -25,6 +26,8 @@ typedef struct request {
 
     long *numbers; /* asked by number: computed by prepare, owned by the arena */
     size_t number_count;
+    double band_below, band_last; /* modes below its two ends, without damping */
+    strum_taut *chain; /* made by prepare, owned by the arena; NULL where it cannot be made */
 } request;
 
 static const field fields[] = {
@@ -68,6 +71,16 @@ static bool by_band(const request *r)
     return r->band_rad_per_s.count > 0;
 }
 
+static void check_nodes(const request *r, const char *pointer, double nodes, problem *p)
+{
+    if (r->nodes && nodes > NODES_MAX)
+        problem_add(
+            p, pointer,
+            "these modes have up to %.0f nodes, more than %d: ask fewer modes, or nodes: "
+            "false",
+            nodes, NODES_MAX);
+}
+
 static void fill_numbers(request *r, schema_arena *arena, problem *p)
 {
     const bool listed = r->mode_numbers.count > 0;
@@ -84,12 +97,41 @@ static void fill_numbers(request *r, schema_arena *arena, problem *p)
     }
     if (r->numbers[r->number_count - 1] > STRUM_TAUT_MODE_MAX)
         problem_add(p, "/first_mode", "mode numbers go up to %d", STRUM_TAUT_MODE_MAX);
-    if (r->nodes && nodes > NODES_MAX)
-        problem_add(
-            p, "/nodes",
-            "these modes have up to %.0f nodes, more than %d: ask fewer modes, or nodes: "
-            "false",
-            nodes, NODES_MAX);
+    check_nodes(r, "/nodes", nodes, p);
+}
+
+static void free_chain(void *chain)
+{
+    strum_taut *c = chain;
+    strum_taut_free(&c);
+}
+
+/* Two shots along the chain; with many varying cables these are too much for the thread that
+ * reads requests, and the band is taken to be full. */
+static void count_band(request *r, problem *p)
+{
+    r->band_last = STRUM_TAUT_ROOTS_MAX;
+    if (chain_varying(&r->in) > VARYING_COUNTED_MAX)
+        return;
+    r->band_below = (double)strum_taut_count(r->chain, r->band_rad_per_s.items[0]);
+    r->band_last = (double)strum_taut_count(r->chain, r->band_rad_per_s.items[1]);
+    if (!strum_taut_is_damped(r->chain))
+        check_nodes(r, "/band_rad_per_s",
+                    0.5 * (r->band_last - r->band_below) * (r->band_last + r->band_below - 1.0),
+                    p);
+}
+
+/* The chain, for the cost and the answer; the answer says why there is none. */
+static void keep_chain(request *r, schema_arena *arena, problem *p)
+{
+    if (chain_make(&r->in, NULL, &r->chain, NULL) != STRUM_OK)
+        return;
+    if (!schema_arena_own(arena, r->chain, free_chain)) {
+        r->chain = NULL;
+        problem_out_of_memory(p);
+    } else if (by_band(r)) {
+        count_band(r, p);
+    }
 }
 
 static void prepare(void *data, schema_arena *arena, problem *p)
@@ -105,14 +147,14 @@ static void prepare(void *data, schema_arena *arena, problem *p)
         r->max_decay_per_s = r->band_rad_per_s.items[1];
         field_give(&request_schema, r, "max_decay_per_s");
     }
+    if (p->status == 0)
+        keep_chain(r, arena, p);
 }
 
 /* Modes asked, or about as many as the band holds. */
-static double mode_estimate(const request *r, const strum_taut *chain)
+static double mode_estimate(const request *r)
 {
-    return by_band(r) ? (double)strum_taut_count(chain, r->band_rad_per_s.items[1]) -
-                            (double)strum_taut_count(chain, r->band_rad_per_s.items[0]) + 3.0
-                      : (double)r->number_count;
+    return by_band(r) ? r->band_last - r->band_below + 3.0 : (double)r->number_count;
 }
 
 static double cost_us(const void *data)
@@ -120,12 +162,10 @@ static double cost_us(const void *data)
     const request *r = data;
     const double parts =
         (double)r->in.components.count + VARYING_COST * (double)chain_varying(&r->in);
-    strum_taut *chain;
-    if (chain_make(&r->in, NULL, &chain, NULL) != STRUM_OK)
+    if (r->chain == NULL)
         return 10.0;
-    const double modes = mode_estimate(r, chain);
-    const bool damped = strum_taut_is_damped(chain);
-    strum_taut_free(&chain);
+    const double modes = mode_estimate(r);
+    const bool damped = strum_taut_is_damped(r->chain);
     /* Heavy damping may have thousands of overdamped roots: never while others wait. */
     return (damped ? 200.0 : 20.0) +
            modes * parts *
@@ -191,19 +231,21 @@ static strum_status write_shape(json_writer *json, const request *r, bool damped
     return status;
 }
 
-static strum_status write_mode(json_writer *json, const request *r, const strum_taut *chain,
-                               const strum_taut_root *root, strum_error *fault)
+static strum_status write_mode(const request *r, const strum_taut_root *root, answer *a,
+                               strum_error *fault)
 {
-    const bool damped = strum_taut_is_damped(chain);
+    json_writer *json = a->result;
+    const bool damped = strum_taut_is_damped(r->chain);
+    const strum_options options = answer_options(a);
     strum_taut_shape *shape = NULL;
     strum_status status = STRUM_OK;
     json_open_object(json);
     chain_write_root(json, root);
     if (root->frequency > 0.0 && ((r->nodes && !damped) || r->shape_points > 0))
-        status = strum_taut_shape_make(chain, root, &shape, fault);
-    if (shape != NULL && r->nodes && !damped)
+        status = strum_taut_shape_make(r->chain, root, &options, &shape, fault);
+    if (status == STRUM_OK && shape != NULL && r->nodes && !damped)
         write_nodes(json, shape);
-    if (shape != NULL && r->shape_points > 0)
+    if (status == STRUM_OK && shape != NULL && r->shape_points > 0)
         status = write_shape(json, r, damped, shape, fault);
     strum_taut_shape_free(&shape);
     json_close_object(json);
@@ -286,18 +328,18 @@ static void warn(const strum_taut_roots *roots, answer *a)
         answer_warn(a, "roots without a number lie on no branch from zero damping");
 }
 
-static strum_status write_result(const request *r, const strum_taut *chain,
-                                 const strum_taut_roots *roots, answer *a, strum_error *fault)
+static strum_status write_result(const request *r, const strum_taut_roots *roots, answer *a,
+                                 strum_error *fault)
 {
     json_writer *json = a->result;
     strum_status status = STRUM_OK;
     json_open_object(json);
-    json_put_number(json, "length_m", strum_taut_length(chain));
-    json_put_flag(json, "damped", strum_taut_is_damped(chain));
+    json_put_number(json, "length_m", strum_taut_length(r->chain));
+    json_put_flag(json, "damped", strum_taut_is_damped(r->chain));
     json_key(json, "modes");
     json_open_array(json);
     for (size_t i = 0; i < roots->count && status == STRUM_OK; i++) {
-        status = write_mode(json, r, chain, &roots->roots[i], fault);
+        status = write_mode(r, &roots->roots[i], a, fault);
         if (answer_cancelled(a))
             status = STRUM_ERR_CANCELLED;
     }
@@ -314,9 +356,19 @@ static strum_status write_result(const request *r, const strum_taut *chain,
     json_put_string(json, "normalisation",
                     "the largest displacement along the chain is 1 (the leftmost where tied)");
     if (r->verify && status == STRUM_OK)
-        status = write_verification(json, chain, roots, a, fault);
+        status = write_verification(json, r->chain, roots, a, fault);
     json_close_object(json);
     return status;
+}
+
+/* Why `prepare` could make no chain. */
+static strum_status refusal(const request *r, strum_error *fault)
+{
+    strum_taut *chain = NULL;
+    const strum_status status = chain_make(&r->in, NULL, &chain, fault);
+    strum_taut_free(&chain);
+    /* made after all: memory was short then */
+    return status != STRUM_OK ? status : STRUM_ERR_MEMORY;
 }
 
 static bool respond(const void *data, answer *a)
@@ -331,22 +383,20 @@ static bool respond(const void *data, answer *a)
                                                              : STRUM_TAUT_CERTIFIED};
     const strum_options options = answer_options(a);
     strum_error fault = {0};
-    strum_taut *chain = NULL;
     strum_taut_roots *roots = NULL;
-    strum_status status = chain_make(&r->in, NULL, &chain, &fault);
+    strum_status status = r->chain != NULL ? STRUM_OK : refusal(r, &fault);
     if (status == STRUM_OK)
-        status = strum_taut_solve(chain, &query, &options, &roots, &fault);
+        status = strum_taut_solve(r->chain, &query, &options, &roots, &fault);
     if (status == STRUM_OK) {
-        a->theory = strum_taut_is_damped(chain)
+        a->theory = strum_taut_is_damped(r->chain)
                         ? "taut chain by transfer matrices (Levesque 1997): branches followed "
                           "from zero damping, certified by the argument principle"
                         : "taut chain by transfer matrices (Levesque 1997; Sergev and Iwan "
                           "1980): every mode by an exact shooting count";
         warn(roots, a);
-        status = write_result(r, chain, roots, a, &fault);
+        status = write_result(r, roots, a, &fault);
     }
     strum_taut_roots_free(&roots);
-    strum_taut_free(&chain);
     if (status != STRUM_OK)
         chain_refuse(&fault, status, a->problem);
     return status == STRUM_OK;

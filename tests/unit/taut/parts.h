@@ -84,7 +84,7 @@ static inline double frequency_of(const strum_taut *chain, long mode)
 {
     double w = NAN;
     strum_error fault = {0};
-    if (strum_taut_frequencies(chain, &mode, 1, &w, &fault) != STRUM_OK)
+    if (strum_taut_frequencies(chain, &mode, 1, NULL, &w, &fault) != STRUM_OK)
         fail_msg("mode %ld: %s", mode, fault.reason);
     return w;
 }

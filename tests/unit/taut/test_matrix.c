@@ -348,6 +348,35 @@ static void a_chain_multiplies_from_the_right(void **state)
 
 /* ---- limits ---- */
 
+/* Energy goes to and fro alike: t11 t22 - t12 t21 = 1 of any chain, damped or not. */
+static void every_chain_is_reciprocal(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    for (int n = 0; n < 200; n++) {
+        strum_taut_link links[2];
+        strum_taut_joint joint;
+        levesque_absorber(draw_log(&seed, 0.1, 50.0), draw_log(&seed, 0.01, 1.0),
+                          draw_log(&seed, 1.0, 1e4), links, &joint);
+        const strum_taut_component parts[6] = {
+            part_cable(LEVESQUE_TENSION, draw_log(&seed, 0.1, 10.0), 3.0,
+                       draw(&seed, 0.0, 5.0)),
+            part_body(LEVESQUE_TENSION, LEVESQUE_TENSION, links, &joint, 2),
+            part_varying(LEVESQUE_TENSION, 6000.0, draw_log(&seed, 0.1, 10.0), 4.0, n & 1),
+            part_support(6000.0, 0.5, 0.2, draw_log(&seed, 0.01, 1.0)),
+            part_hanging(draw_log(&seed, 0.1, 50.0), 2000.0, draw_log(&seed, 1.0, 1e3)),
+            part_ground(draw_log(&seed, 1.0, 1e4), draw_log(&seed, 1.0, 1e3))};
+        strum_taut *chain = fixed_chain(parts, 6);
+        double _Complex f[4];
+        assert_int_equal(strum_taut_matrix(chain, draw_log(&seed, 1.0, 100.0),
+                                           draw(&seed, -3.0, 3.0), f, NULL),
+                         STRUM_OK);
+        const double size = cabs(f[0] * f[3]) + cabs(f[1] * f[2]);
+        assert_true(cabs(f[0] * f[3] - f[1] * f[2] - 1.0) < 1e-13 * (1.0 + size));
+        strum_taut_free(&chain);
+    }
+}
+
 static void limits_are_reached(void **state)
 {
     (void)state;
@@ -459,6 +488,7 @@ int main(void)
         cmocka_unit_test(every_component_is_reciprocal_and_can_be_turned),
         cmocka_unit_test(pieces_make_the_whole),
         cmocka_unit_test(a_chain_multiplies_from_the_right),
+        cmocka_unit_test(every_chain_is_reciprocal),
         cmocka_unit_test(limits_are_reached),
         cmocka_unit_test(faults_are_told),
     };

@@ -18,7 +18,8 @@ static void a_string_has_its_harmonics(void **state)
             strum_taut *chain = chain_of(&part, 1, ends[l], ends[r]);
             const long numbers[] = {1, 2, 3, 29, 162, 1000, 20000};
             double w[7];
-            assert_int_equal(strum_taut_frequencies(chain, numbers, 7, w, NULL), STRUM_OK);
+            assert_int_equal(strum_taut_frequencies(chain, numbers, 7, NULL, w, NULL),
+                             STRUM_OK);
             for (int i = 0; i < 7; i++) { /* a free cable's first mode is a rigid motion */
                 const double k = (double)numbers[i] - 0.5 * l - 0.5 * r;
                 check_absolute(w[i], k * unit, 1e-14 * k * unit);
@@ -179,13 +180,13 @@ static void bodies_without_cable(void **state)
     const long second = 2;
     double w;
     strum_error fault;
-    assert_int_equal(strum_taut_frequencies(chain, &second, 1, &w, &fault),
+    assert_int_equal(strum_taut_frequencies(chain, &second, 1, NULL, &w, &fault),
                      STRUM_ERR_IMPOSSIBLE);
     assert_string_equal(fault.reason, "the chain has only 1 modes");
     strum_taut_free(&chain);
     const strum_taut_component still[2] = {part_mass(1.0), part_hanging(1.0, 1.0, 0.0)};
     chain = fixed_chain(still, 2);
-    assert_int_equal(strum_taut_frequencies(chain, &second, 1, &w, &fault),
+    assert_int_equal(strum_taut_frequencies(chain, &second, 1, NULL, &w, &fault),
                      STRUM_ERR_IMPOSSIBLE);
     strum_taut_free(&chain);
 }
@@ -260,7 +261,7 @@ static void three_hundred_and_eighty_masses(void **state)
     double w[1000];
     for (long k = 0; k < 1000; k++)
         numbers[k] = k + 1;
-    assert_int_equal(strum_taut_frequencies(chain, numbers, 1000, w, NULL), STRUM_OK);
+    assert_int_equal(strum_taut_frequencies(chain, numbers, 1000, NULL, w, NULL), STRUM_OK);
     /* independent values, the one of mode 162 to 25 digits */
     check_relative(w[0], .1385290547799, 1e-12);
     check_relative(w[161], 22.37212128812053347530539, 1e-13);
@@ -277,7 +278,7 @@ static void three_hundred_and_eighty_masses(void **state)
         const double *nodes;
         const strum_taut_antinode *antinodes;
         const strum_taut_root root = {k + 1, w[k], 0.0, INFINITY};
-        assert_int_equal(strum_taut_shape_make(chain, &root, &shape, NULL), STRUM_OK);
+        assert_int_equal(strum_taut_shape_make(chain, &root, NULL, &shape, NULL), STRUM_OK);
         assert_int_equal(strum_taut_shape_nodes(shape, &nodes), k);
         assert_int_equal(strum_taut_shape_antinodes(shape, &antinodes), k + 1);
         strum_taut_shape_free(&shape);
@@ -361,7 +362,7 @@ static void check_shape(const strum_taut *chain, long mode, const double *nodes,
     strum_taut_shape *shape;
     const double *got;
     const strum_taut_antinode *tops;
-    assert_int_equal(strum_taut_shape_make(chain, &root, &shape, NULL), STRUM_OK);
+    assert_int_equal(strum_taut_shape_make(chain, &root, NULL, &shape, NULL), STRUM_OK);
     assert_int_equal(strum_taut_shape_nodes(shape, &got), node_count);
     for (size_t i = 0; i < node_count; i++)
         check_absolute(got[i], nodes[i], 1e-9);
@@ -421,7 +422,7 @@ static void shapes_satisfy_the_equations(void **state)
         const strum_taut_root root = {mode, frequency_of(chain, mode), 0.0, INFINITY};
         strum_taut_shape *shape;
         strum_taut_point p[2981];
-        assert_int_equal(strum_taut_shape_make(chain, &root, &shape, NULL), STRUM_OK);
+        assert_int_equal(strum_taut_shape_make(chain, &root, NULL, &shape, NULL), STRUM_OK);
         assert_int_equal(strum_taut_shape_sample(shape, 2981, p, NULL), STRUM_OK);
         const double k2 = root.frequency * root.frequency / 5000.0, h = 0.01;
         double largest = 0.0;
@@ -549,7 +550,7 @@ static void a_shape_outlives_its_chain(void **state)
     assert_int_equal(
         strum_taut_make(&string, 1, STRUM_TAUT_FIXED, STRUM_TAUT_FIXED, &chain, NULL),
         STRUM_OK);
-    assert_int_equal(strum_taut_shape_make(chain, &first, &shape, NULL), STRUM_OK);
+    assert_int_equal(strum_taut_shape_make(chain, &first, NULL, &shape, NULL), STRUM_OK);
     strum_taut_free(&chain);
     assert_int_equal(strum_taut_shape_sample(shape, 5, points, NULL), STRUM_OK);
     for (int k = 0; k < 5; k++)

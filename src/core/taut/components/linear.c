@@ -3,6 +3,9 @@
  * nodes and antinodes of its shapes. */
 #include "core/taut/shape.h"
 
+/* Estimated microseconds to find one node: some 60 solutions of the cable. */
+#define NODE_US 1000.0
+
 /* Phase W = w integral of sqrt(rho/T) along the cable; tension linear (Li, below A.2). */
 double taut_varying_phase(const taut_component *c, double w)
 {
@@ -68,6 +71,8 @@ strum_status taut_varying_survey(strum_taut_shape *shape, size_t i, strum_error 
     strum_status status = STRUM_OK;
     for (long n = 1; n <= nodes && status == STRUM_OK; n++) {
         double lo = from, hi = length;
+        if (work_spend(shape->work, NODE_US) != STRUM_OK)
+            return work_error(shape->work, error);
         long after = nodes;
         /* until node n is alone, and not at either end, where the sign of y is rounding */
         while ((after > n || lo == from || hi == length) && hi - lo > 1e-15 * length) {
