@@ -33,7 +33,7 @@ static const char mark[8] = "strum 1\n";
 struct store {
     store_options options;
     char host[256], port[128];
-    char solver[56];         /* the version, number and build whose answers are store */
+    char solver[72];         /* the version, number, numerics and build whose answers are store */
     strbuf secret, password; /* empty: none */
     pthread_mutex_t lock;    /* of what follows; never held while the store is waited for */
     redis_place at;
@@ -178,8 +178,9 @@ static void name_solver(store *s)
     if (fd >= 0)
         close(fd);
     key_hex(&digest, hex);
-    snprintf(s->solver, sizeof s->solver, "%.24s-%d-%.16s", strum_version(), strum_solver(),
-             hex);
+    const char *numerics = evaluation_numerics();
+    snprintf(s->solver, sizeof s->solver, "%.24s-%d-%.16s-%.16s", strum_version(),
+             strum_solver(), numerics != NULL ? numerics : "unknown", hex);
 }
 
 typedef struct name {

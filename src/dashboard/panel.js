@@ -141,11 +141,11 @@ export function makeBench(endpoint, first, keptFirst) {
 
   function showCite() {
     const { request, answer, text } = current;
-    const { key, solver, solver_number: number, theory } = answer.meta;
+    const { key, solver, solver_number: number, numerics, theory } = answer.meta;
     const address = `/v1/results/${key}`;
     const curl = curlOf(endpoint.path, request);
     /* With the question, since the daemon keeps an answer no longer than it has room and runs. */
-    const citation = `${solver}, solver number ${number}, ${endpoint.path}, ${theory}. Answer ${key}, asked by: ${curl}`;
+    const citation = `${solver}, solver number ${number}, numerics ${numerics}, ${endpoint.path}, ${theory}. Answer ${key}, asked by: ${curl}`;
     const link = () => new URL(stateLink(endpoint.path, current.request, kept), location.href).href;
     const below = () => {
       cite.querySelector('details').open = true;
@@ -160,7 +160,7 @@ export function makeBench(endpoint, first, keptFirst) {
         button('Copy curl', () => copy(curl, 'The curl line', below)),
         button('JSON', () => download(`${endpoint.name}.json`, 'application/json', text))),
       h('details', {}, h('summary', {}, 'Cite, repeat, check'),
-        h('p', {}, 'Cite the question: a solver of the same number answers it with the same key and the same bytes.'),
+        h('p', {}, 'Cite the question: a solver of the same number and the same numerics answers it with the same key and the same bytes; other numerics differ in last digits.'),
         h('p', {}, 'While this daemon keeps it: ', h('a', { href: address, class: 'address' }, h('code', {}, address))),
         h('p', {}, h('code', { class: 'citation' }, citation)),
         h('pre', { tabindex: '0' }, h('code', { class: 'curl' }, curl))));

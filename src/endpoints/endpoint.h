@@ -81,13 +81,16 @@ evaluation *evaluation_read_query(const endpoint *e, const query_pair *pairs, si
                                   problem *p);
 void evaluation_free(evaluation *a);
 
-/* Canonical bytes: endpoint, version and number of the solver, and every field; their hash is the
- * answer's key. */
+/* The digest of this machine's numerics (strum_numerics), found at the first call; NULL when there
+ * is no memory to find it. */
+const char *evaluation_numerics(void);
+/* Canonical bytes: endpoint, version and number of the solver, the digest of the numerics, and
+ * every field; their hash is the answer's key. */
 void evaluation_canonical(const evaluation *a, strbuf *out);
 /* The endpoint's estimate, made once when the request was complete. */
 double evaluation_cost_us(const evaluation *a);
 /* Writes {"request", "result", "warnings", "meta": {"key", "solver", "solver_number",
- * "theory"}}. False with `p` filled when there is no answer. `w` may be NULL. */
+ * "numerics", "theory"}}. False with `p` filled when there is no answer. `w` may be NULL. */
 bool evaluation_answer(const evaluation *a, const char *key, observer *w, strbuf *out,
                        problem *p);
 

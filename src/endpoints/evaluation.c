@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One asking: read and completed, keyed, answered. */
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -10,6 +11,10 @@
 
 /* Of the canonical form itself: raised when equal bytes would come to mean something else. */
 #define CANONICAL_VERSION "1"
+
+/* The digest of the numerics, once it was found; under the lock. */
+static pthread_mutex_t numerics_lock = PTHREAD_MUTEX_INITIALIZER;
+static char numerics_digest[STRUM_NUMERICS_SIZE];
 
 struct evaluation {
     const endpoint *endpoint;
@@ -74,13 +79,26 @@ void evaluation_free(evaluation *a)
     free(a);
 }
 
+const char *evaluation_numerics(void)
+{
+    char found[STRUM_NUMERICS_SIZE];
+    pthread_mutex_lock(&numerics_lock);
+    if (numerics_digest[0] == '\0' && strum_numerics(found, NULL) == STRUM_OK)
+        memcpy(numerics_digest, found, sizeof found);
+    const bool known = numerics_digest[0] != '\0';
+    pthread_mutex_unlock(&numerics_lock);
+    return known ? numerics_digest : NULL;
+}
+
 void evaluation_canonical(const evaluation *a, strbuf *out)
 {
     strbuf_add(out, a->endpoint->path, strlen(a->endpoint->path) + 1);
     strbuf_add(out, CANONICAL_VERSION, sizeof CANONICAL_VERSION);
     strbuf_add(out, strum_version(), strlen(strum_version()) + 1);
-    /* Equal keys mean equal bytes: a key ends with the solver whose answer it named. */
-    strbuf_format(out, "%d", strum_solver());
+    /* Equal keys mean equal bytes: of this solver, with numerics that round as these do. */
+    const char *numerics = evaluation_numerics();
+    out->failed |= numerics == NULL;
+    strbuf_format(out, "%d %s", strum_solver(), numerics != NULL ? numerics : "");
     strbuf_add(out, "", 1);
     schema_canonical(a->endpoint->request, a->request, out);
 }
@@ -156,6 +174,9 @@ static void write_end(const answer *answered, const char *key, json_writer *json
     json->out->failed |= solver.failed;
     strbuf_clear(&solver);
     json_put_integer(json, "solver_number", strum_solver());
+    const char *numerics = evaluation_numerics();
+    json->out->failed |= numerics == NULL;
+    json_put_string(json, "numerics", numerics != NULL ? numerics : "");
     if (answered->theory != NULL)
         json_put_string(json, "theory", answered->theory);
     json_close_object(json);

@@ -256,6 +256,8 @@ def test_pages(strumd):
     assert re.fullmatch(r"\d+\.\d+\.\d+", version["solver"])
     example = json.loads((ROOT / "api/examples/taut_matrix.json").read_text(encoding="utf-8"))
     assert version["solver_number"] == example["answer"]["meta"]["solver_number"]
+    assert re.fullmatch("[0-9a-f]{16}", version["numerics"])
+    assert version["numerics"] == strumd.post(example["request"], example["endpoint"]).json()["meta"]["numerics"]
     metrics = strumd.get("/metrics")
     assert metrics.headers["Content-Type"].startswith("text/plain; version=0.0.4")
     names = [line.split()[2] for line in metrics.text.splitlines() if line.startswith("# TYPE ")]

@@ -18,11 +18,19 @@ from test_load import answers_of, as_bytes, ask, costly, held, wait_metric
 
 FOUND = "strum-store; hit, strum; fwd=miss; stored"
 ALL = ("--inline-us", "0", "--store-timeout-ms", "60000")  # everything is shared, however slow this machine is
-# Version, solver number and build: a digest of the program after its length.
+# Version, solver number, numerics of this machine, and build: a digest of the program after its length.
 BYTES = pathlib.Path(PROGRAM).read_bytes()
 NUMBER, = re.findall(r"^solver_number = (\d+)$", (ROOT / "meson.build").read_text(encoding="utf-8"), re.M)
-SOLVER = subprocess.check_output([PROGRAM, "--version"], text=True).split()[1] + f"-{NUMBER}-" + hashlib.sha256(
-    struct.pack("<Q", len(BYTES)) + BYTES).hexdigest()[:16]
+VERSION = subprocess.check_output([PROGRAM, "--version"], text=True).split()[1]
+BUILD = hashlib.sha256(struct.pack("<Q", len(BYTES)) + BYTES).hexdigest()[:16]
+
+
+def solver_of(response):
+    return f"{VERSION}-{NUMBER}-{response.json()['meta']['numerics']}-{BUILD}"
+
+
+def name_of(response):
+    return f"strum:{solver_of(response)}:{key_of(response)}"
 
 
 class Redis:
@@ -97,7 +105,7 @@ def test_a_cold_daemon_answers_from_the_store(start_strumd, redis):
     first = fill(warm, questions)
     assert warm.metric("store_misses_total") == warm.metric("solves_total") == 5
     assert {response.headers["Cache-Status"] for response in first} == {"strum; fwd=miss; stored"}
-    assert redis.keys() == sorted(f"strum:{SOLVER}:{key_of(response)}" for response in first)
+    assert redis.keys() == sorted(name_of(response) for response in first)
 
     cold = start_strumd(*redis.flags, *ALL)
     assert cold.metric("store_away") == 1  # nobody has asked it yet
@@ -208,7 +216,7 @@ def test_other_addresses(start_strumd, start_redis):
 
 def test_what_was_changed_is_solved_anew_and_overwritten(start_strumd, redis):
     first, other = fill(start_strumd(*redis.flags, *ALL), [costly(1), costly(2)])
-    key, other_key = (f"strum:{SOLVER}:{key_of(response)}" for response in (first, other))
+    key, other_key = name_of(first), name_of(other)
     good, other_value = redis.ask("GET", key), redis.ask("GET", other_key)
     assert first.content in good
     forged = good.replace(b'"frequency_ratio":', b'"frequency_ratio":9', 1)
@@ -232,7 +240,7 @@ def test_what_was_changed_is_solved_anew_and_overwritten(start_strumd, redis):
 def test_another_solver_s_answers_are_not_looked_at(start_strumd, redis):
     first, = fill(start_strumd(*redis.flags, *ALL), [COSTLY])
     key, = redis.keys()
-    redis.ask("RENAME", key, key.replace(SOLVER, "0.1.0-1-0123456789abcdef"))
+    redis.ask("RENAME", key, key.replace(solver_of(first), "0.1.0-1-0123456789abcdef-0123456789abcdef"))
     cold = start_strumd(*redis.flags, *ALL)
     assert fill(cold, [COSTLY])[0].content == first.content
     assert (cold.metric("store_misses_total"), cold.metric("store_rejected_total"), cold.metric("solves_total")) == (1, 0, 1)

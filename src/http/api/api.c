@@ -48,7 +48,7 @@ bool api_start(api *a, const settings *set, char fault[256])
     if (!service_start(s, set, route_count(pages), path_of, fault))
         return false;
     s->pages = pages;
-    if (!(s->no_memory = reply_no_memory())) {
+    if (evaluation_numerics() == NULL || !(s->no_memory = reply_no_memory())) {
         snprintf(fault, 256, "out of memory");
         return false;
     }

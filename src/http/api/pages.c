@@ -49,6 +49,7 @@ enum MHD_Result page_version(connection *p)
     json_put_string(&json, "commit", COMMIT);
     json_put_string(&json, "solver", strum_version());
     json_put_integer(&json, "solver_number", strum_solver());
+    json_put_string(&json, "numerics", evaluation_numerics());
     json_put_string(&json, "libmicrohttpd", MHD_get_version());
     json_close_object(&json);
     return reply_text(p, 200, "application/json", &body);

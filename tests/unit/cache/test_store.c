@@ -278,8 +278,8 @@ static void what_one_keeps_another_finds(void **state)
     char name[128], hex[KEY_HEX_SIZE];
     const cache_key key = key_number(1);
     key_hex(&key, hex);
-    const int head =
-        snprintf(name, sizeof name, "strum:%s-%d-", strum_version(), strum_solver());
+    const int head = snprintf(name, sizeof name, "strum:%s-%d-%s-", strum_version(),
+                              strum_solver(), evaluation_numerics());
     assert_memory_equal(fake.name, name, (size_t)head);
     assert_int_equal(strspn(fake.name + head, "0123456789abcdef"), 16);
     assert_memory_not_equal(fake.name + head, "0000000000000000", 16);

@@ -137,14 +137,18 @@ static void an_answer_has_four_parts(void **state)
     observer w = {.solve_us = -1, .transient = true};
     assert_true(evaluation_answer(a, "abc123", &w, &out, &p));
     assert_true(w.solve_us >= 0 && !w.transient);
+    char numerics[STRUM_NUMERICS_SIZE];
+    assert_int_equal(strum_numerics(numerics, NULL), STRUM_OK);
+    assert_int_equal(strspn(numerics, "0123456789abcdef"), STRUM_NUMERICS_SIZE - 1);
     strbuf want = {0};
     strbuf_format(&want,
                   "{\"request\":{\"xi_1\":0,\"xi_2\":1,\"gravity_m_per_s2\":9.80665,"
                   "\"mass_kg_per_m\":6,\"flexibility\":0,\"plane\":\"both\",\"modes\":3,"
                   "\"verify\":true,\"chi\":[0,9.80665]},\"result\":{\"x\":0.1},\"warnings\":["
                   "\"first 1\",\"second \\\"two\\\"\"],\"meta\":{\"key\":\"abc123\",\"solver\":"
-                  "\"strum %s\",\"solver_number\":%d,\"theory\":\"none \\\"at all\\\"\"}}",
-                  strum_version(), strum_solver());
+                  "\"strum %s\",\"solver_number\":%d,\"numerics\":\"%s\",\"theory\":\"none "
+                  "\\\"at all\\\"\"}}",
+                  strum_version(), strum_solver(), numerics);
     assert_string_equal(out.data, want.data);
     strbuf_clear(&want);
     strbuf_clear(&out);
@@ -213,8 +217,8 @@ static void canonical_bytes_name_endpoint_and_solver(void **state)
     evaluation_canonical(query, &two);
     assert_int_equal(one.size, two.size);
     assert_memory_equal(one.data, two.data, one.size);
-    strbuf_format(&head, "/v1/test/cable%c1%c%s%c%d%c", 0, 0, strum_version(), 0,
-                  strum_solver(), 0);
+    strbuf_format(&head, "/v1/test/cable%c1%c%s%c%d %s%c", 0, 0, strum_version(), 0,
+                  strum_solver(), evaluation_numerics(), 0);
     /* then the first field that has a value: its name, its tag, +0 */
     strbuf_add(&head, "xi_1\0n\0\0\0\0\0\0\0\0", 14);
     assert_true(one.size > head.size);
