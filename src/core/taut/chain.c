@@ -227,8 +227,13 @@ static strum_status fill(strum_taut *chain, const strum_taut_component *given, s
         taut_component *c = &chain->components[i];
         const strum_status status = make_component(&given[i], c, fault);
         chain->count = i + 1;
-        if (status != STRUM_OK)
+        if (status != STRUM_OK) {
+            if (fault != NULL) {
+                fault->argument = STRUM_TAUT_ARG_COMPONENTS;
+                fault->index = i;
+            }
             return status;
+        }
         chain->length += c->length;
         if (c->length > 0.0)
             chain->tension +=
