@@ -264,3 +264,20 @@ def test_pages(strumd):
     assert len(names) == len(set(names))
     for line in metrics.text.splitlines():
         assert line.startswith("# ") or re.fullmatch(r'strum_\w+(\{(\w+="[^"]*",?)+\})? \d+(\.\d{6})?', line), line
+
+
+@pytest.mark.parametrize("path, body", [
+    # the heaviest and the lightest cable there is: their weight follows from what was sent
+    (PATH, {"span_m": 644, "length_m": 644.0448778912543, "gravity_m_per_s2": 571.85, "mass_kg_per_m": 1e6}),
+    (PATH, {"span_m": 100, "length_m": 110, "gravity_m_per_s2": 1e4, "mass_kg_per_m": 1e6}),
+    (PATH, {"span_m": 100, "length_m": 110, "gravity_m_per_s2": 1e-9, "mass_kg_per_m": 1e-9}),
+    ("/v1/forced/tension", {"span_m": 100, "length_m": 110, "gravity_m_per_s2": 1e4, "mass_kg_per_m": 1e6,
+                            "frequency_ratios": [1]}),
+    ("/v1/inclined/modes", {"length_m": 1e7, "mass_kg_per_m": 1e6, "tension_N": 1e12, "inclination_deg": 0,
+                            "inextensible": True}),
+])
+def test_an_echoed_request_is_the_same_question(strumd, path, body):
+    answer = strumd.post(body, path=path)
+    again = strumd.post(answer.json()["request"], path=path)
+    assert again.status_code == 200, again.text
+    assert key_of(again) == key_of(answer)

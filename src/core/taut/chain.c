@@ -57,8 +57,13 @@ static strum_status fill(strum_taut *chain, const strum_taut_component *given, s
         taut_component *c = &chain->components[i];
         strum_status status = component_make(&given[i], i, c, error);
         chain->count = i + 1;
-        if (status != STRUM_OK)
+        if (status != STRUM_OK) {
+            if (error != NULL) {
+                error->argument = STRUM_TAUT_ARG_COMPONENTS;
+                error->index = i;
+            }
             return status;
+        }
         chain->length += c->length;
         if (c->length > 0.0)
             chain->tension +=

@@ -228,6 +228,22 @@ static long mode_near(const taut_solve *s, cplx root)
     return mode;
 }
 
+/* Of the roots in a box those it is not asked for: near the axis what oscillates, and in a band
+ * whose border moved over the axis what does not, and conjugates. */
+static long not_asked_inside(const taut_solve *s, const taut_rectangle *box)
+{
+    const bool near_axis = box->im_lo == -box->im_hi;
+    long count = 0;
+    for (size_t i = 0; i < s->known && box->im_lo < 0.0; i++) {
+        const long here = taut_inside(box, s->s[i]);
+        if (cimag(s->s[i]) == 0.0)
+            count += near_axis ? 0 : here;
+        else
+            count += (near_axis ? here : 0) + taut_inside(box, conj(s->s[i]));
+    }
+    return count;
+}
+
 /* Counts, and searches for what the branches did not lead to. */
 static strum_status complete(taut_solve *s, taut_rectangle *box, long *expected, long *found)
 {
@@ -255,6 +271,9 @@ static strum_status complete(taut_solve *s, taut_rectangle *box, long *expected,
     if (*found != *expected)
         return error_set(s->fault, STRUM_ERR_ACCURACY,
                          "the count expects %ld roots, %ld were found", *expected, *found);
+    const long more = not_asked_inside(s, box);
+    *expected -= more;
+    *found -= more;
     return STRUM_OK;
 }
 
@@ -338,7 +357,7 @@ static int zeros_at_origin(const strum_taut *chain)
 
 static strum_status solve_axis(taut_solve *s, double lowest, double decay)
 {
-    const double half = fmin(lowest, 0.25 * s->search.spacing);
+    const double half = fmin(lowest > 0.0 ? lowest : INFINITY, 0.25 * s->search.spacing);
     taut_rectangle box = box_of(s, -half, half, decay);
     const int rigid = zeros_at_origin(s->search.chain);
     strum_status status = reserve(s, (size_t)rigid);
@@ -370,12 +389,12 @@ static strum_status solve_band(taut_solve *s)
     if (status == STRUM_OK)
         status = complete(s, &box, &s->out->expected, &s->out->found);
     for (size_t i = 0; i < s->known && status == STRUM_OK; i++)
-        if (taut_inside(&box, s->s[i]))
+        if (taut_inside(&box, s->s[i]) && cimag(s->s[i]) > 0.0)
             status = give(s, i, false);
     for (long k = s->first; k <= s->last && status == STRUM_OK; k++)
         if (k > below && k <= last && s->branches[k - s->first].state == TAUT_LOST)
             s->out->lost++;
-    s->out->lowest = box.im_lo;
+    s->out->lowest = fmax(box.im_lo, 0.0);
     s->out->highest = box.im_hi;
     s->out->max_decay = -box.re_lo;
     return status == STRUM_OK ? solve_axis(s, box.im_lo, q->max_decay) : status;
@@ -432,7 +451,7 @@ static strum_status solve_run(taut_solve *s, long first, long last)
             return status;
         out->expected += expected;
         out->found += found;
-        out->lowest = out->highest > 0.0 ? out->lowest : box.im_lo;
+        out->lowest = out->highest > 0.0 ? out->lowest : fmax(box.im_lo, 0.0);
         out->highest = box.im_hi;
         out->max_decay = fmax(out->max_decay, -box.re_lo);
     }
@@ -490,7 +509,7 @@ static strum_status solve_by_guesses(taut_solve *s, bool *done)
     for (size_t i = 0; i < s->known && status == STRUM_OK; i++)
         if (taut_inside(&box, s->s[i]))
             status = taut_roots_add(s->out, plain_root(s, i), false, s->fault);
-    s->out->lowest = box.im_lo;
+    s->out->lowest = fmax(box.im_lo, 0.0);
     s->out->highest = box.im_hi;
     s->out->max_decay = -box.re_lo;
     *done = status == STRUM_OK;

@@ -239,7 +239,11 @@ static strum_status verify_damped(const strum_taut *chain, const strum_taut_root
         status = error_set(fault, STRUM_ERR_MEMORY, "no memory for %zu unknowns", n);
     } else {
         double *re = room + 7 * n * n, *im = re + 2 * n;
-        status = quadratic_roots(&a, sqrt(roots->lowest * roots->highest), room, re, im, fault);
+        const double low = roots->lowest > 0.0 ? roots->lowest
+                           : roots->count > 0  ? roots->roots[0].frequency
+                                               : 0.0;
+        const double sigma = low > 0.0 ? sqrt(low * roots->highest) : roots->highest;
+        status = quadratic_roots(&a, sigma, room, re, im, fault);
         if (status == STRUM_OK)
             compare(roots, 2 * n, re, im, v);
     }

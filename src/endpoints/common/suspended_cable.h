@@ -74,7 +74,7 @@ typedef struct cable_input {
          .min = CABLE_LEAST, .max = 1e6,                                                       \
          .help = "mass per length (per unstretched length where that is given)"},              \
         {FIELD_AT(FIELD_NUMBER, cable_input, weight_N_per_m), .unit = "N/m",                   \
-         .min = CABLE_LEAST, .max = 1e8,                                                       \
+         .min = CABLE_LEAST * CABLE_LEAST, .max = 1e10, /* of every mass times gravity */      \
          .help = "weight per length; default mass times gravity, less in water"},              \
         {FIELD_AT(FIELD_NUMBER, cable_input, added_mass_kg_per_m),                             \
          .unit = "kg/m",                                                                       \

@@ -64,6 +64,13 @@ static double degrees(double radians)
     return turned > 180 ? turned - 360 : turned <= -180 ? turned + 360 : turned;
 }
 
+/* A time, which has no number where the frequency is 0 or next to it. */
+static void put_finite(json_writer *json, const char *key, double value)
+{
+    if (isfinite(value))
+        json_put_number(json, key, value);
+}
+
 static void write_frequency(json_writer *json, const forced_request *r, double frequency_ratio)
 {
     json_put_number(json, "frequency_ratio", frequency_ratio);
@@ -71,8 +78,7 @@ static void write_frequency(json_writer *json, const forced_request *r, double f
         const double angular = frequency_ratio * r->in.rad_per_s;
         json_put_number(json, "angular_frequency_rad_per_s", angular);
         json_put_number(json, "frequency_Hz", angular / (2 * M_PI));
-        if (angular > 0)
-            json_put_number(json, "period_s", 2 * M_PI / angular);
+        put_finite(json, "period_s", 2 * M_PI / angular);
     }
 }
 
@@ -104,9 +110,8 @@ static strum_status write_peak(json_writer *json, const solving *s, double frequ
         json_put_number(json, "at_chi", chi);
         json_put_flag(json, "tensile", peak.tension >= 0);
         json_put_number(json, "at_time_to_period", peak.phase / (2 * M_PI));
-        const double angular = frequency_ratio * r->in.rad_per_s;
-        if (angular > 0)
-            json_put_number(json, "at_time_s", peak.phase / angular);
+        if (r->in.rad_per_s > 0)
+            put_finite(json, "at_time_s", peak.phase / (frequency_ratio * r->in.rad_per_s));
     } else {
         strum_peak peak;
         strum_response_peak(s->responses[0], &peak);

@@ -2,6 +2,7 @@
 /* /v1/inclined/modes, the request: its fields, what follows from them, and what it costs. */
 #include "endpoints/inclined/request.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "endpoints/common/suspended_cable.h"
@@ -98,6 +99,14 @@ static void complete_metres(inclined_request *r)
     r->rad_per_s = sqrt(r->tension / mass) / r->length_m;
 }
 
+/* Lambda squared of a cable in metres; what overflows is too stiff, not infinitely so. */
+static double stiffness_of(const inclined_request *r)
+{
+    return fmin(r->axial_stiffness_N / r->tension *
+                    pow(r->cable.epsilon * cos(r->cable.inclination), 2),
+                DBL_MAX);
+}
+
 static void find_stiffness(inclined_request *r, bool metres, problem *p)
 {
     const bool stiffness = field_given(&inclined_schema, r, "axial_stiffness_N");
@@ -112,10 +121,8 @@ static void find_stiffness(inclined_request *r, bool metres, problem *p)
         problem_add(p, "/axial_stiffness_N",
                     "needs a cable in metres; give lambda_squared beside epsilon");
     r->cable.lambda_squared = r->inextensible ? INFINITY
-                              : lambda
-                                  ? r->lambda_squared
-                                  : r->axial_stiffness_N / r->tension *
-                                        pow(r->cable.epsilon * cos(r->cable.inclination), 2);
+                              : lambda        ? r->lambda_squared
+                                              : stiffness_of(r);
 }
 
 /* The field to lay an error of the cable at: what a group of metres makes of it is the

@@ -330,9 +330,16 @@ static strum_status body_poles(taut_component *c, strum_error *error)
     }
     const lapack_int info =
         LAPACKE_dsygv(LAPACK_ROW_MAJOR, 1, 'N', 'U', size, m, size, k, size, mu);
+    if (info < -1000) /* LAPACK_WORK_MEMORY_ERROR and its like */
+        return error_set(error, STRUM_ERR_MEMORY, "no memory for a body of %d links", n);
+    /* Not positive definite as computed: lengths, arms or forces many orders apart. */
     if (info != 0)
-        return error_set(error, info < -1000 ? STRUM_ERR_MEMORY : STRUM_ERR_INTERNAL,
-                         "the resonances of a body of %d links were not found", n);
+        return error_set(
+            error, STRUM_ERR_RANGE,
+            "the lengths of the links, the arms and stiffnesses of their joints and "
+            "their tensions are too many orders apart: rounding hides the "
+            "resonances of a body of %d links",
+            n);
     c->body.pole_count = 0;
     for (int i = size - 1; i >= 0; i--)
         if (mu[i] > DBL_EPSILON * mu[size - 1])
