@@ -56,7 +56,7 @@ typedef struct endpoint {
     const schema *request;
     bool query;     /* may be asked by GET: no nested lists */
     bool variables; /* FIELD_VARIABLE rows may name variables */
-    /* Computes dependent defaults (field_give) and checks across fields; adds every fault to
+    /* Computes dependent defaults (FIELD_GIVE) and checks across fields; adds every fault to
      * `p`. */
     void (*prepare)(void *request, schema_arena *arena, problem *p);
     /* Estimated work in microseconds: decides between answering at once and handing to the

@@ -225,26 +225,25 @@ static void describe_alternative(const schema *s, const char *title, field_set r
 
 /* Exactly one alternative must hold, also for a request that gives none of the fields: a second
  * group that needs nothing holds only where one of its fields is given. */
-static void describe_group(const schema *s, const field_groups *g, json_writer *json)
+static void describe_group(const schema *s, const alternatives *g, json_writer *json)
 {
-    const field_set all = groups_own(s, g);
     bool empty_allowed = false;
     json_open_object(json);
-    json_put_string(json, "title", g->title);
+    json_put_string(json, "title", g->words->title);
     json_key(json, "oneOf");
     json_open_array(json);
-    for (int i = 0; g->groups[i] != NULL; i++) {
-        const group one = group_parse(s, g->groups[i]);
+    for (size_t i = 0; i < g->count; i++) {
+        const group one = g->groups[i];
         const field_set required = one.required | one.needed;
         field_set some = 0;
         if (required == 0) {
             some = empty_allowed ? one.own : 0;
             empty_allowed = true;
         }
-        describe_alternative(s, g->groups[i], required, all & ~one.own, some, json);
+        describe_alternative(s, g->words->groups[i], required, g->own & ~one.own, some, json);
     }
-    if (g->optional && !empty_allowed)
-        describe_alternative(s, "none", 0, all, 0, json);
+    if (g->words->optional && !empty_allowed)
+        describe_alternative(s, "none", 0, g->own, 0, json);
     json_close_array(json);
     json_close_object(json);
 }
@@ -253,8 +252,13 @@ static void describe_object(const schema *s, const variant *v, bool variables,
                             json_writer *json)
 {
     field_set required = 0, grouped = 0;
-    for (const field_groups *g = s->groups; g != NULL && g->title != NULL; g++)
-        grouped |= groups_own(s, g);
+    const alternatives *all = schema_alternatives(s);
+    if (all == NULL) {
+        json->out->failed = true;
+        return;
+    }
+    for (const alternatives *g = all; g->words != NULL; g++)
+        grouped |= g->own;
     json_open_object(json);
     json_put_string(json, "title", v != NULL ? v->type : s->name);
     if (v != NULL && v->help != NULL)
@@ -281,7 +285,7 @@ static void describe_object(const schema *s, const variant *v, bool variables,
     if (grouped != 0) {
         json_key(json, "allOf");
         json_open_array(json);
-        for (const field_groups *g = s->groups; g->title != NULL; g++)
+        for (const alternatives *g = all; g->words != NULL; g++)
             describe_group(s, g, json);
         json_close_array(json);
     }

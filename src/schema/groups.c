@@ -3,13 +3,16 @@
  * What a request leaves open: which of the alternative groups it means, which defaults follow,
  * and what is missing.
  *
- * Index: complete_members -> choose_group -> report_conflict, report_open, report_missing.
+ * Index: complete_members -> schema_alternatives -> parse_group; choose_group ->
+ * report_conflict, report_open, report_missing.
  */
+#include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "schema/parts.h"
 
-group group_parse(const schema *s, const char *words)
+static group parse_group(const schema *s, const char *words)
 {
     group g = {0};
     for (const char *at = words; *at != '\0';) {
@@ -34,12 +37,52 @@ group group_parse(const schema *s, const char *words)
     return g;
 }
 
-field_set groups_own(const schema *s, const field_groups *g)
+/* What is kept of one table. */
+typedef struct memo {
+    struct memo *next;
+    const schema *schema;
+    alternatives all[]; /* then the groups */
+} memo;
+
+static memo *memo_make(const schema *s)
 {
-    field_set own = 0;
-    for (int i = 0; g->groups[i] != NULL; i++)
-        own |= group_parse(s, g->groups[i]).own;
-    return own;
+    size_t sets = 1, count = 0;
+    for (const field_groups *g = s->groups; g != NULL && g->title != NULL; g++, sets++)
+        for (int i = 0; g->groups[i] != NULL; i++)
+            count++;
+    memo *m = calloc(1, sizeof *m + sets * sizeof *m->all + count * sizeof(group));
+    if (m == NULL)
+        return NULL;
+    m->schema = s;
+    alternatives *at = m->all;
+    group *one = (group *)(m->all + sets);
+    for (const field_groups *g = s->groups; g != NULL && g->title != NULL; g++, at++) {
+        *at = (alternatives){.words = g, .groups = one};
+        for (int i = 0; g->groups[i] != NULL; i++, one++, at->count++) {
+            *one = parse_group(s, g->groups[i]);
+            at->own |= one->own;
+        }
+    }
+    return m;
+}
+
+const alternatives *schema_alternatives(const schema *s)
+{
+    static _Atomic(memo *) memos;
+    static const alternatives none;
+    if (s->groups == NULL)
+        return &none;
+    for (const memo *m = atomic_load(&memos); m != NULL; m = m->next)
+        if (m->schema == s)
+            return m->all;
+    memo *m = memo_make(s);
+    if (m == NULL)
+        return NULL;
+    /* two threads may both put one in: either serves */
+    m->next = atomic_load(&memos);
+    while (!atomic_compare_exchange_weak(&memos, &m->next, m))
+        continue;
+    return m->all;
 }
 
 /* "a, b" */
@@ -55,11 +98,11 @@ static void add_names(const schema *s, field_set rows, strbuf *out)
 
 /* "(1) sag_parameter, optionally rise_to_span; (2) xi_1, xi_2": the groups that own all of
  * `rows`. */
-static void add_groups(const schema *s, const field_groups *g, field_set rows, strbuf *out)
+static void add_groups(const schema *s, const alternatives *g, field_set rows, strbuf *out)
 {
     int shown = 0;
-    for (int i = 0; g->groups[i] != NULL; i++) {
-        const group one = group_parse(s, g->groups[i]);
+    for (size_t i = 0; i < g->count; i++) {
+        const group one = g->groups[i];
         if (rows & ~one.own)
             continue;
         shown++;
@@ -77,7 +120,7 @@ static void add_groups(const schema *s, const field_groups *g, field_set rows, s
 }
 
 /* No group, or more than one, fits what was given. */
-static void report_open(reading *r, const schema *s, const field_groups *g, field_set given,
+static void report_open(reading *r, const schema *s, const alternatives *g, field_set given,
                         const json_place *place)
 {
     strbuf groups = {0}, names = {0};
@@ -86,21 +129,22 @@ static void report_open(reading *r, const schema *s, const field_groups *g, fiel
     if (groups.failed || names.failed)
         problem_out_of_memory(r->p);
     else if (given == 0)
-        json_fault(r->p, place, "the %s is missing; give one of %s", g->title, groups.data);
+        json_fault(r->p, place, "the %s is missing; give one of %s", g->words->title,
+                   groups.data);
     else
-        json_fault(r->p, place, "the %s is incomplete with %s alone; give one of %s", g->title,
-                   names.data, groups.data);
+        json_fault(r->p, place, "the %s is incomplete with %s alone; give one of %s",
+                   g->words->title, names.data, groups.data);
     strbuf_clear(&groups);
     strbuf_clear(&names);
 }
 
 /* Fields of different groups: names those outside the group that most of them belong to. */
-static void report_conflict(reading *r, const schema *s, const field_groups *g, field_set given,
+static void report_conflict(reading *r, const schema *s, const alternatives *g, field_set given,
                             const json_place *place)
 {
     field_set best = 0;
-    for (int i = 0; g->groups[i] != NULL; i++) {
-        const field_set own = group_parse(s, g->groups[i]).own & given;
+    for (size_t i = 0; i < g->count; i++) {
+        const field_set own = g->groups[i].own & given;
         if (__builtin_popcountll(own) > __builtin_popcountll(best))
             best = own;
     }
@@ -115,13 +159,13 @@ static void report_conflict(reading *r, const schema *s, const field_groups *g, 
             problem_out_of_memory(r->p);
         else
             json_fault(r->p, &at, "cannot stand beside %s: give the %s by only one of %s",
-                       names.data, g->title, groups.data);
+                       names.data, g->words->title, groups.data);
     }
     strbuf_clear(&groups);
     strbuf_clear(&names);
 }
 
-static void report_missing(reading *r, const schema *s, const field_groups *g,
+static void report_missing(reading *r, const schema *s, const alternatives *g,
                            field_set missing, field_set given, const json_place *place)
 {
     strbuf names = {0};
@@ -134,20 +178,21 @@ static void report_missing(reading *r, const schema *s, const field_groups *g,
         if (names.failed)
             problem_out_of_memory(r->p);
         else
-            json_fault(r->p, &at, "missing: the %s by %s needs it", g->title, names.data);
+            json_fault(r->p, &at, "missing: the %s by %s needs it", g->words->title,
+                       names.data);
     }
     strbuf_clear(&names);
 }
 
 /* The rows of the chosen group (0: none, or a fault). `given`: rows seen that any group of `g`
  * owns. */
-static field_set choose_group(reading *r, const schema *s, const field_groups *g,
+static field_set choose_group(reading *r, const schema *s, const alternatives *g,
                               field_set seen, field_set given, const json_place *place)
 {
     group fitting = {0};
     int candidates = 0;
-    for (int i = 0; g->groups[i] != NULL; i++) {
-        const group one = group_parse(s, g->groups[i]);
+    for (size_t i = 0; i < g->count; i++) {
+        const group one = g->groups[i];
         if (given & ~one.own)
             continue;
         if (((one.required | one.needed) & ~seen) == 0)
@@ -156,7 +201,7 @@ static field_set choose_group(reading *r, const schema *s, const field_groups *g
         candidates++;
     }
     if (given == 0) {
-        if (!g->optional)
+        if (!g->words->optional)
             report_open(r, s, g, given, place);
     } else if (candidates == 0) {
         report_conflict(r, s, g, given, place);
@@ -198,10 +243,14 @@ void complete_members(reading *r, const schema *s, field_set seen, const json_pl
                       void *request)
 {
     field_set grouped = 0, chosen = 0;
-    for (const field_groups *g = s->groups; g != NULL && g->title != NULL; g++) {
-        const field_set own = groups_own(s, g);
-        grouped |= own;
-        chosen |= choose_group(r, s, g, seen, seen & own, place);
+    const alternatives *g = schema_alternatives(s);
+    if (g == NULL) {
+        problem_out_of_memory(r->p);
+        return;
+    }
+    for (; g->words != NULL; g++) {
+        grouped |= g->own;
+        chosen |= choose_group(r, s, g, seen, seen & g->own, place);
     }
     for (int row = 0; s->fields[row].kind != FIELD_END; row++) {
         const field *f = &s->fields[row];

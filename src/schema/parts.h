@@ -31,15 +31,22 @@ void read_members(reading *r, const schema *s, const cJSON *object, bool typed,
 void complete_members(reading *r, const schema *s, field_set seen, const json_place *place,
                       void *request);
 
-/* A group of a table, parsed. */
+/* A group of a table, as rows. */
 typedef struct group {
     field_set own;      /* rows that choose it */
     field_set required; /* rows of `own` that must be given */
     field_set needed;   /* rows that must be given but do not choose it */
 } group;
-group group_parse(const schema *s, const char *words);
-/* Every row that any of the groups owns. */
-field_set groups_own(const schema *s, const field_groups *g);
+/* The alternatives of one field_groups; a table's follow one another in its order. */
+typedef struct alternatives {
+    const field_groups *words;
+    const group *groups;
+    size_t count;
+    field_set own; /* every row that any of the groups owns */
+} alternatives;
+/* Those of a table, which ends with words NULL; parsed at the first call and kept, for a table
+ * is constant and lives as long as the program. NULL when there is no memory. */
+const alternatives *schema_alternatives(const schema *s);
 
 /* Rows with a value. */
 static inline field_set given_rows(const void *request)

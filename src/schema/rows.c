@@ -100,19 +100,23 @@ bool field_given(const schema *s, const void *request, const char *name)
     return row >= 0 && (given_rows(request) & row_bit(row)) != 0;
 }
 
-bool field_given_at(const schema *s, const void *request, size_t offset)
+/* The bit of the row whose value stands there; 0 when none does. */
+static field_set bit_at(const schema *s, size_t offset)
 {
     for (int row = 0; s->fields[row].kind != FIELD_END; row++)
         if (s->fields[row].offset == offset)
-            return (given_rows(request) & row_bit(row)) != 0;
-    return false;
+            return row_bit(row);
+    return 0;
 }
 
-void field_give(const schema *s, void *request, const char *name)
+bool field_given_at(const schema *s, const void *request, size_t offset)
 {
-    const int row = schema_row(s, name, 0);
-    if (row >= 0)
-        *(field_set *)request |= row_bit(row);
+    return (given_rows(request) & bit_at(s, offset)) != 0;
+}
+
+void field_give_at(const schema *s, void *request, size_t offset)
+{
+    *(field_set *)request |= bit_at(s, offset);
 }
 
 static const field complex_fields[] = {

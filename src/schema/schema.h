@@ -6,7 +6,7 @@
  * Schema of api/openapi.yaml and the dashboard's forms.
  *
  * Request structs are plain C; the first member is `field_set given`, where bit i says that row
- * i has a value: the caller gave it, its default was filled in, or field_give was called. Only
+ * i has a value: the caller gave it, its default was filled in, or FIELD_GIVE was called. Only
  * such rows are echoed and enter the key; the others are zero. Memory is zeroed before reading.
  *
  *     static const field fields[] = {
@@ -140,18 +140,21 @@ struct schema {
     size_t size;                /* of the struct */
 };
 
-/* True when row `name` of the struct has a value: given, defaulted or set since (field_give).
+/* True when row `name` of the struct has a value: given, defaulted or set since (FIELD_GIVE).
  * To know what a caller gave, look at a field without a default. */
 bool field_given(const schema *s, const void *request, const char *name);
 /* The same of a struct's member: FIELD_GIVEN(&schema, r, span_m). A name that is no member does not
  * compile, and no names are compared. */
 #define FIELD_GIVEN(s, request, member)                                                        \
-    field_given_at((s), (request),                                                             \
-                   (size_t)((const char *)&(request)->member - (const char *)(request)))
+    field_given_at((s), (request), FIELD_OFFSET(request, member))
 bool field_given_at(const schema *s, const void *request, size_t offset);
 /* Marks it as set: for defaults that are computed from other fields (they are echoed and enter
  * the key). */
-void field_give(const schema *s, void *request, const char *name);
+#define FIELD_GIVE(s, request, member)                                                         \
+    field_give_at((s), (request), FIELD_OFFSET(request, member))
+void field_give_at(const schema *s, void *request, size_t offset);
+#define FIELD_OFFSET(request, member)                                                          \
+    ((size_t)((const char *)&(request)->member - (const char *)(request)))
 
 /* A filled request: `request` and all lists it points to are owned by the arena and end with
  * schema_free. */

@@ -85,7 +85,7 @@ static void write_search(json_writer *json, const absorber_request *r,
 static void write_required(json_writer *json, const absorber_request *r,
                            const strum_absorber_optimum *best)
 {
-    if (!field_given(&absorber_schema, r, "required"))
+    if (!FIELD_GIVEN(&absorber_schema, r, required))
         return;
     const chain_variables x = {r->names, best->values, r->variables.count};
     const absorber_required *q = &r->required;
@@ -239,7 +239,7 @@ static strum_status write_sweep(json_writer *json, absorber_solving *s,
                                 const strum_absorber_optimum *best)
 {
     const absorber_request *r = s->r;
-    if (!field_given(&absorber_schema, r, "sweep"))
+    if (!FIELD_GIVEN(&absorber_schema, r, sweep))
         return STRUM_OK;
     const int at = absorber_variable_index(r, r->sweep.variable.text);
     int64_t points = r->sweep.points;

@@ -127,7 +127,7 @@ static void check_variables(const absorber_request *r, problem *p)
         else if (!n.used[i])
             problem_add(p, pointer, "no number of the chain refers to %s", all[i].name.text);
     }
-    if (field_given(&absorber_schema, r, "sweep") &&
+    if (FIELD_GIVEN(&absorber_schema, r, sweep) &&
         absorber_variable_index(r, r->sweep.variable.text) < 0)
         problem_add(p, "/sweep/variable", "is not among variables");
 }

@@ -65,7 +65,7 @@ static void complete_masses(const schema *s, cable_input *in, problem *p)
         problem_add(p, "/mass_kg_per_m", "is needed with added_mass_kg_per_m");
     if (mass && !FIELD_GIVEN(s, in, weight_N_per_m)) {
         in->weight_N_per_m = in->mass_kg_per_m * in->gravity_m_per_s2;
-        field_give(s, in, "weight_N_per_m");
+        FIELD_GIVE(s, in, weight_N_per_m);
     }
     const bool metres = FIELD_GIVEN(s, in, span_m);
     if (FIELD_GIVEN(s, in, axial_stiffness_N) && !metres)

@@ -53,11 +53,6 @@ static strum_status solve_at(solving *s, double frequency_ratio)
     return status;
 }
 
-static bool periodic(const forced_request *r)
-{
-    return forced_given(r, "harmonics");
-}
-
 static double degrees(double radians)
 {
     const double turned = fmod(radians * 180 / M_PI, 360);
@@ -98,7 +93,7 @@ static strum_status write_peak(json_writer *json, const solving *s, double frequ
 {
     const forced_request *r = s->r;
     double tension, chi;
-    if (periodic(r)) {
+    if (forced_periodic(r)) {
         strum_periodic_peak peak;
         const strum_status status = strum_periodic_peak_find(s->responses, r->multiples,
                                                              (size_t)r->motion_count, &peak);
@@ -156,7 +151,7 @@ static strum_status write_curve(json_writer *json, solving *s, const answer *a)
 static void put_amplitude(json_writer *json, const forced_request *r, const char *name,
                           const char *phase_name, double _Complex value)
 {
-    if (periodic(r) || !cable_damped(&r->in)) {
+    if (forced_periodic(r) || !cable_damped(&r->in)) {
         json_put_number(json, name, creal(value));
         return;
     }
@@ -170,7 +165,7 @@ static strum_forced_point point_of(const solving *s, double chi, double phase)
     strum_forced_point sum = {.chi = chi}, one;
     for (int i = 0; i < s->r->motion_count; i++) {
         const double _Complex turn =
-            periodic(s->r) ? cexp(CMPLX(0, s->r->multiples[i] * phase)) : 1;
+            forced_periodic(s->r) ? cexp(CMPLX(0, s->r->multiples[i] * phase)) : 1;
         strum_response_at(s->responses[i], chi, &one);
         sum.tangential += turn * one.tangential;
         sum.normal += turn * one.normal;
@@ -211,10 +206,10 @@ static void write_profile_points(json_writer *json, const solving *s, double pha
         put_amplitude(json, r, "out_of_plane", "out_of_plane_phase_deg", at.out_of_plane);
         put_amplitude(json, r, "tension", "tension_phase_deg", at.tension);
         if (r->in.tension_N > 0)
-            json_put_number(
-                json, "tension_N",
-                (cable_damped(&r->in) && !periodic(r) ? cabs(at.tension) : creal(at.tension)) *
-                    r->in.tension_N);
+            json_put_number(json, "tension_N",
+                            (cable_damped(&r->in) && !forced_periodic(r) ? cabs(at.tension)
+                                                                         : creal(at.tension)) *
+                                r->in.tension_N);
         json_close_object(json);
     }
     json_close_array(json);
@@ -235,7 +230,7 @@ static strum_status write_profiles(json_writer *json, solving *s, const answer *
             status = STRUM_OK;
         } else if (status == STRUM_OK) {
             strum_periodic_peak peak = {0};
-            if (periodic(r)) {
+            if (forced_periodic(r)) {
                 status = strum_periodic_peak_find(s->responses, r->multiples,
                                                   (size_t)r->motion_count, &peak);
                 json_put_number(json, "at_time_to_period", peak.phase / (2 * M_PI));
@@ -270,7 +265,7 @@ static bool drives(const forced_request *r, int i, strum_plane plane)
         moves |= plane == STRUM_IN_PLANE ? m->tangential != 0 || m->normal != 0
                                          : m->out_of_plane != 0;
     }
-    return moves || !periodic(r);
+    return moves || !forced_periodic(r);
 }
 
 /* One natural frequency, once for every multiple of a forcing frequency in the range that meets
@@ -295,7 +290,7 @@ static void write_resonance(json_writer *json, const forced_request *r,
         json_put_string(json, "symmetry", symmetry_text(at->symmetry));
         if (strength >= 0)
             json_put_number(json, "strength", strength);
-        if (periodic(r)) {
+        if (forced_periodic(r)) {
             json_put_integer(json, "multiple", r->multiples[i]);
             json_put_number(json, "forcing_frequency_ratio", forcing);
         }
@@ -358,7 +353,7 @@ static strum_status write_resonances(json_writer *json, const forced_request *r,
             status = write_damped_resonances(json, r, STRUM_OUT_OF_PLANE, a);
     } else {
         for (int i = 0; i < count; i++)
-            write_resonance(json, r, &list[i], 0, periodic(r) ? -1 : list[i].residue);
+            write_resonance(json, r, &list[i], 0, forced_periodic(r) ? -1 : list[i].residue);
     }
     json_close_array(json);
     return status;

@@ -92,21 +92,15 @@ const schema forced_request_schema = {.name = "forced_tension_request",
                                       .groups = groups,
                                       .size = sizeof(forced_request)};
 
-bool forced_given(const forced_request *r, const char *name)
-{
-    return field_given(&forced_request_schema, r, name);
-}
-
 /* Amplitudes that were left out are 0; with none at all the report's tangential 0.01 moves the
  * end. */
 static void complete_motion(forced_request *r)
 {
-    static const char *const names[] = {"tangential_displacement", "normal_displacement",
-                                        "out_of_plane_displacement"};
-    const bool metres = forced_given(r, "tangential_displacement_m") ||
-                        forced_given(r, "normal_displacement_m") ||
-                        forced_given(r, "out_of_plane_displacement_m");
-    if (forced_given(r, "harmonics")) {
+    const schema *s = &forced_request_schema;
+    const bool metres = FIELD_GIVEN(s, r, tangential_displacement_m) ||
+                        FIELD_GIVEN(s, r, normal_displacement_m) ||
+                        FIELD_GIVEN(s, r, out_of_plane_displacement_m);
+    if (forced_periodic(r)) {
         const harmonic *h = r->harmonics.items;
         for (size_t i = 0; i < r->harmonics.count; i++, h++) {
             const double _Complex turn = cexp(CMPLX(0, h->phase_deg * M_PI / 180));
@@ -124,10 +118,13 @@ static void complete_motion(forced_request *r)
                                            r->out_of_plane_displacement_m / r->in.a_m};
         return;
     }
-    if (!forced_given(r, names[0]) && !forced_given(r, names[1]) && !forced_given(r, names[2]))
+    if (!FIELD_GIVEN(s, r, tangential_displacement) &&
+        !FIELD_GIVEN(s, r, normal_displacement) &&
+        !FIELD_GIVEN(s, r, out_of_plane_displacement))
         r->tangential_displacement = 0.01;
-    for (int i = 0; i < 3; i++)
-        field_give(&forced_request_schema, r, names[i]);
+    FIELD_GIVE(s, r, tangential_displacement);
+    FIELD_GIVE(s, r, normal_displacement);
+    FIELD_GIVE(s, r, out_of_plane_displacement);
     r->motions[0] = (strum_end_motion){r->tangential_displacement, r->normal_displacement,
                                        r->out_of_plane_displacement};
 }

@@ -26,7 +26,11 @@ typedef struct forced_request {
     bool in_plane, out_of_plane;
 } forced_request;
 
-bool forced_given(const forced_request *r, const char *name);
+/* True when the motion is a sum of harmonics. */
+static inline bool forced_periodic(const forced_request *r)
+{
+    return r->harmonics.count > 0;
+}
 /* The forcing frequencies of the curve, in sqrt(g/a). */
 int forced_frequency_count(const forced_request *r);
 double forced_frequency_at(const forced_request *r, int i);

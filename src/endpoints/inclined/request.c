@@ -86,11 +86,11 @@ const schema inclined_schema = {.name = "inclined_modes_request",
 
 static void complete_metres(inclined_request *r)
 {
-    if (!field_given(&inclined_schema, r, "weight_N_per_m")) {
+    if (!FIELD_GIVEN(&inclined_schema, r, weight_N_per_m)) {
         r->weight_N_per_m = r->mass_kg_per_m * INCLINED_GRAVITY;
-        field_give(&inclined_schema, r, "weight_N_per_m");
+        FIELD_GIVE(&inclined_schema, r, weight_N_per_m);
     }
-    r->tension = field_given(&inclined_schema, r, "tension_N")
+    r->tension = FIELD_GIVEN(&inclined_schema, r, tension_N)
                      ? r->tension_N
                      : r->horizontal_tension_N / cos(r->cable.inclination);
     const double mass = r->mass_kg_per_m + r->added_mass_kg_per_m;
@@ -109,8 +109,8 @@ static double stiffness_of(const inclined_request *r)
 
 static void find_stiffness(inclined_request *r, bool metres, problem *p)
 {
-    const bool stiffness = field_given(&inclined_schema, r, "axial_stiffness_N");
-    const bool lambda = field_given(&inclined_schema, r, "lambda_squared");
+    const bool stiffness = FIELD_GIVEN(&inclined_schema, r, axial_stiffness_N);
+    const bool lambda = FIELD_GIVEN(&inclined_schema, r, lambda_squared);
     if (r->inextensible && (stiffness || lambda))
         problem_add(p, "/inextensible", "cannot be true beside %s",
                     lambda ? "lambda_squared" : "axial_stiffness_N");
@@ -135,8 +135,7 @@ static const char *field_at_fault(const inclined_request *r, int argument)
         return "/axial_stiffness_N";
     if (argument == STRUM_INCLINED_ARG_MASS_RATIO)
         return "/added_mass_kg_per_m";
-    return field_given(&inclined_schema, r, "tension_N") ? "/tension_N"
-                                                         : "/horizontal_tension_N";
+    return FIELD_GIVEN(&inclined_schema, r, tension_N) ? "/tension_N" : "/horizontal_tension_N";
 }
 
 void inclined_prepare(void *data, schema_arena *arena, problem *p)
@@ -146,7 +145,7 @@ void inclined_prepare(void *data, schema_arena *arena, problem *p)
     if (r->shape_points == 1)
         problem_add(p, "/shape_points",
                     "must be 0 or at least 2, so that both ends are among them");
-    const bool metres = field_given(&inclined_schema, r, "length_m");
+    const bool metres = FIELD_GIVEN(&inclined_schema, r, length_m);
     r->cable = (strum_inclined_cable){.epsilon = r->epsilon,
                                       .inclination = r->inclination_deg * M_PI / 180,
                                       .mass_ratio = r->mass_ratio,

@@ -143,9 +143,9 @@ static void prepare(void *data, schema_arena *arena, problem *p)
                     "must be 0 or at least 2, so that both ends are among them");
     if (!by_band(r)) {
         fill_numbers(r, arena, p);
-    } else if (!field_given(&request_schema, r, "max_decay_per_s")) {
+    } else if (!FIELD_GIVEN(&request_schema, r, max_decay_per_s)) {
         r->max_decay_per_s = r->band_rad_per_s.items[1];
-        field_give(&request_schema, r, "max_decay_per_s");
+        FIELD_GIVE(&request_schema, r, max_decay_per_s);
     }
     if (p->status == 0)
         keep_chain(r, arena, p);

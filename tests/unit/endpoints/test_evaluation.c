@@ -28,11 +28,11 @@ static void cable_prepare(void *request, schema_arena *arena, problem *p)
 {
     cable_request *q = request;
     /* a default that follows from another field */
-    if (!field_given(&cable_schema, q, "mass_kg_per_m")) {
+    if (!FIELD_GIVEN(&cable_schema, q, mass_kg_per_m)) {
         q->mass_kg_per_m = 2 * (double)q->modes;
-        field_give(&cable_schema, q, "mass_kg_per_m");
+        FIELD_GIVE(&cable_schema, q, mass_kg_per_m);
     }
-    if (!field_given(&cable_schema, q, "chi")) {
+    if (!FIELD_GIVEN(&cable_schema, q, chi)) {
         q->chi.items = schema_alloc(arena, 2 * sizeof(double));
         if (q->chi.items == NULL) {
             problem_out_of_memory(p);
@@ -40,7 +40,7 @@ static void cable_prepare(void *request, schema_arena *arena, problem *p)
         }
         q->chi.items[1] = q->gravity_m_per_s2;
         q->chi.count = 2;
-        field_give(&cable_schema, q, "chi");
+        FIELD_GIVE(&cable_schema, q, chi);
     }
     if (q->xi_1 > q->xi_2)
         problem_add(p, "/xi_1", "must be less than xi_2");
