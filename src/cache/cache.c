@@ -7,6 +7,7 @@
 #include <sodium/randombytes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "cache/slot.h"
 
@@ -14,6 +15,9 @@ struct flight {
     slot slot;
     waiter *waiters;
     _Atomic bool cancel;
+    /* While `cancel` is set: */
+    int64_t abandoned_ms;
+    struct flight *before, *after; /* in the order in which they were abandoned */
 };
 
 struct cache {
@@ -24,6 +28,7 @@ struct cache {
     uint64_t spread; /* odd and secret: nobody can choose bodies that share a bucket */
     unsigned char secret[crypto_shorthash_siphashx24_KEYBYTES]; /* of cache_key_of_body */
     struct cached *newest, *oldest;
+    flight *abandoned_first, *abandoned_last;
     cache_counters count;
 };
 
@@ -164,6 +169,27 @@ static void wait_for(flight *f, waiter *w)
     f->waiters = w;
 }
 
+static void abandon(cache *c, flight *f)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
+    f->abandoned_ms = (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+    f->before = c->abandoned_last;
+    *(f->before ? &f->before->after : &c->abandoned_first) = f;
+    c->abandoned_last = f;
+    c->count.abandoned++;
+    c->count.cancels++;
+    atomic_store(&f->cancel, true);
+}
+
+/* An abandoned flight has ended. */
+static void forget(cache *c, flight *f)
+{
+    *(f->before ? &f->before->after : &c->abandoned_first) = f->after;
+    *(f->after ? &f->after->before : &c->abandoned_last) = f->before;
+    c->count.abandoned--;
+}
+
 static flight *take_off(cache *c, const cache_key *key)
 {
     flight *f = calloc(1, sizeof *f);
@@ -225,6 +251,8 @@ void cache_complete(cache *c, flight *f, entry *outcome)
     pthread_mutex_lock(&c->lock);
     slot_remove(c, &f->slot);
     c->count.flights--;
+    if (atomic_load(&f->cancel))
+        forget(c, f);
     if (outcome && outcome->status == 200) {
         if (!outcome->transient)
             store(c, outcome);
@@ -254,10 +282,8 @@ bool cache_release(cache *c, waiter *w)
             place = &(*place)->next;
         *place = w->next;
         w->flight = NULL;
-        if (!f->waiters) {
-            atomic_store(&f->cancel, true);
-            c->count.cancels++;
-        }
+        if (!f->waiters)
+            abandon(c, f);
     }
     pthread_mutex_unlock(&c->lock);
     return f != NULL;
@@ -302,7 +328,8 @@ void cache_free(cache *c)
 cache_counters cache_count(cache *c)
 {
     pthread_mutex_lock(&c->lock);
-    const cache_counters count = c->count;
+    cache_counters count = c->count;
+    count.abandoned_since_ms = c->abandoned_first ? c->abandoned_first->abandoned_ms : 0;
     pthread_mutex_unlock(&c->lock);
     return count;
 }

@@ -19,6 +19,10 @@ typedef struct cache cache;
 typedef struct cache_counters {
     uint64_t hits, misses, joins, solves, cancels, evictions;
     size_t entries, bytes, cap, flights;
+    /* Flights that nobody waits for and that are not ended yet, and since when the oldest of
+     * them is one (CLOCK_MONOTONIC_COARSE in milliseconds). */
+    size_t abandoned;
+    int64_t abandoned_since_ms;
 } cache_counters;
 
 /* At most `cap` bytes, its own tables included; 0 stores nothing. NULL when memory ran out. */

@@ -14,10 +14,11 @@ typedef struct entry {
     int status; /* HTTP status; only 200 is stored */
     char *body; /* owned; JSON (application/problem+json unless the status is 200) */
     size_t size;
-    double queue_us, solve_us; /* spent waiting for a worker, and in endpoint or store */
-    bool stored;               /* set by cache_complete, before anybody is woken */
-    bool transient;            /* might come out otherwise another time: never stored */
-    bool from_store;           /* from the shared store: solved elsewhere */
+    double queue_us, solve_us;  /* spent waiting for a worker, and in endpoint or store */
+    double cpu_us, estimate_us; /* of the endpoint: time of the processor, and its estimate */
+    bool stored;                /* set by cache_complete, before anybody is woken */
+    bool transient;             /* might come out otherwise another time: never stored */
+    bool from_store;            /* from the shared store: solved elsewhere */
     /* What http has made ready for sending the entry again: set before the entry is shared,
      * dropped with the last reference. It may point into `body` as long as it holds the body
      * (entry_hold_body). */

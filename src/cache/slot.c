@@ -74,6 +74,8 @@ entry *entry_solve(const evaluation *a, const cache_key *key, observer *w)
     entry *e = entry_new(key, status, &body);
     if (e) {
         e->solve_us = w->solve_us;
+        e->cpu_us = w->cpu_us;
+        e->estimate_us = evaluation_cost_us(a);
         e->transient = w->transient;
     }
     return e;

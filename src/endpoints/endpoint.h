@@ -26,6 +26,7 @@ typedef struct observer {
     /* May be NULL. From the thread that solves; however often it is called, it costs little. */
     void (*progress)(struct observer *w, const progress *so_far);
     double solve_us; /* set: the time spent in the endpoint */
+    double cpu_us;   /* set: of that, the time of the processor */
     bool transient;  /* set: see below */
 } observer;
 

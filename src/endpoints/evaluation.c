@@ -150,10 +150,10 @@ strum_options answer_options(const answer *a)
     return options;
 }
 
-static double now_us(void)
+static double now_us(clockid_t clock)
 {
     struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    (void)clock_gettime(clock, &now);
     return 1e6 * (double)now.tv_sec + 1e-3 * (double)now.tv_nsec;
 }
 
@@ -196,10 +196,12 @@ bool evaluation_answer(const evaluation *a, const char *key, observer *w, strbuf
     json_key(&json, "request");
     schema_echo(a->endpoint->request, a->request, &json);
     json_key(&json, "result");
-    const double start = now_us();
+    const double start = now_us(CLOCK_MONOTONIC);
+    const double cpu = now_us(CLOCK_THREAD_CPUTIME_ID);
     bool good = a->endpoint->answer(a->request, &answered);
     if (w != NULL) {
-        w->solve_us = now_us() - start;
+        w->solve_us = now_us(CLOCK_MONOTONIC) - start;
+        w->cpu_us = now_us(CLOCK_THREAD_CPUTIME_ID) - cpu;
         w->transient = answered.transient;
     }
     if (good) {

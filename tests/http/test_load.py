@@ -14,7 +14,7 @@ import requests
 
 from conftest import CHEAP, COSTLY, ENDLESS, FORCED, IMPOSSIBLE, PATIENCE, PATH, read_answers, split_answers
 
-ONE_WORKER = ("--workers", "1", "--queue-depth", "1000")
+ONE_WORKER = ("--workers", "1", "--queue-depth", "1000", "--cheap-us", "0")
 
 
 def costly(number):
@@ -95,7 +95,7 @@ def test_a_refusal_reaches_all_who_wait(start_strumd):
 
 
 def test_a_full_queue_refuses_and_stored_answers_still_come(start_strumd):
-    strumd = start_strumd("--workers", "1", "--queue-depth", "2", "--retry-after-s", "7")
+    strumd = start_strumd("--workers", "1", "--queue-depth", "2", "--retry-after-s", "7", "--cheap-us", "0")
     assert strumd.post(CHEAP).status_code == 200
     with held(strumd, 2):
         connections = ask(strumd, [costly(number) for number in range(40)])

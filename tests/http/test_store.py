@@ -130,7 +130,7 @@ def test_who_asks_for_events_gets_them(start_strumd, redis):
 
 def test_who_waits_for_the_same_is_told_the_same(start_strumd, redis):
     first, = fill(start_strumd(*redis.flags, *ALL), [COSTLY])
-    cold = start_strumd(*redis.flags, *ALL, "--workers", "1")
+    cold = start_strumd(*redis.flags, *ALL, "--workers", "1", "--cheap-us", "0")
     with held(cold):
         connections = ask(cold, [COSTLY] * 20)
         wait_metric(cold, "cache_joins_total", 19)
@@ -173,7 +173,7 @@ def test_an_answer_is_found_by_its_key(start_strumd, redis):
 def test_who_asks_by_a_key_does_not_answer_for_who_asks_the_question(start_strumd, redis):
     """Both wait for one worker; nothing is stored: 404 for the one, the answer for the other."""
     key = key_of(start_strumd().post(COSTLY))
-    strumd = start_strumd(*redis.flags, *ALL, "--workers", "1", "--queue-depth", "10")
+    strumd = start_strumd(*redis.flags, *ALL, "--workers", "1", "--cheap-us", "0", "--queue-depth", "10")
     by_key = b"GET /v1/results/%s HTTP/1.1\r\nHost: a\r\n\r\n" % key.encode()
     with held(strumd, 2):
         connections = [strumd.connect() for _ in range(3)]

@@ -133,8 +133,8 @@ static evaluation *read_item(const slot *s, problem *p)
     return a;
 }
 
-/* Joins the flight for this answer, or leads it if there is none yet. */
-static void solve(slot *s, const evaluation *a)
+/* Joins the flight for this answer, or leads it if there is none yet. Takes over `a`. */
+static void solve(slot *s, evaluation *a)
 {
     batch *b = s->batch;
     strbuf canonical = {0};
@@ -150,6 +150,7 @@ static void solve(slot *s, const evaluation *a)
     if (turn == ROLE_HIT || turn == ROLE_NONE) {
         finish(s, hit);
         stream_unref(&b->stream);
+        evaluation_free(a);
         return;
     }
     pthread_mutex_lock(&b->lock);
@@ -162,8 +163,14 @@ static void solve(slot *s, const evaluation *a)
     pthread_mutex_unlock(&b->lock);
     if (late)
         stream_unref(&b->stream);
+    /* A long one waits for its turn among the long ones, and the next item begins. */
+    if (turn == ROLE_LEADER && evaluation_cost_us(a) >= THREAD_POOL_LONG_US) {
+        solve_item_later(b->service, a, &key, lead);
+        return;
+    }
     if (turn == ROLE_LEADER)
         solve_flight(b->service, a, &key, lead, 0);
+    evaluation_free(a);
 }
 
 static void work_item(slot *s)
@@ -183,7 +190,6 @@ static void work_item(slot *s)
     else
         finish(s, refusal_entry(&s->waiter.raw, &why));
     problem_clear(&why);
-    evaluation_free(a);
 }
 
 /* ---- the workers of a batch ---- */
@@ -218,7 +224,7 @@ static void run(job *j)
     for (slot *s; (s = begin_item(b, r));) {
         work_item(s);
         if (clock_us() > until) {
-            thread_pool_queue_background(b->service->thread_pool, j);
+            thread_pool_queue_batch(b->service->thread_pool, j);
             return;
         }
     }
@@ -236,7 +242,7 @@ static void start_runners(batch *b)
         r->running = true;
         left--;
         stream_ref(&b->stream);
-        thread_pool_queue_background(b->service->thread_pool, &r->job);
+        thread_pool_queue_batch(b->service->thread_pool, &r->job);
     }
 }
 
@@ -339,7 +345,7 @@ static batch *batch_new(connection *p)
     const size_t workers = (size_t)thread_pool_count(s->thread_pool).workers;
     b->runner_count = workers < RUNNERS ? workers : RUNNERS;
     for (size_t i = 0; i < b->runner_count; i++)
-        b->runners[i] = (runner){.job.work = run, .batch = b};
+        b->runners[i] = (runner){.job = {.work = run, .cost_us = TURN_US}, .batch = b};
     return b;
 }
 

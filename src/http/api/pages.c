@@ -31,12 +31,26 @@ enum MHD_Result page_livez(connection *p)
 enum MHD_Result page_readyz(connection *p)
 {
     service *s = p->service;
-    const int64_t full_since = thread_pool_count(s->thread_pool).full_since_ms;
+    const thread_pool_counters pool = thread_pool_count(s->thread_pool);
+    const cache_counters known = cache_count(s->cache);
+    const int64_t full_since = pool.full_since_ms;
     if (s->draining)
         return reply_refusal(p, 503, "shutting down");
     if (full_since && clock_ms() - full_since > FULL_MS)
         return reply_refusal(p, 503, "the queue has been full for over %d s", FULL_MS / 1000);
-    return say_status(p, "ready");
+    strbuf body = {0};
+    json_writer json = {.out = &body};
+    json_open_object(&json);
+    json_put_string(&json, "status", "ready");
+    json_put_integer(&json, "workers", pool.workers);
+    json_put_integer(&json, "working", (int64_t)pool.working);
+    json_put_number(&json, "backlog_s", thread_pool_backlog_s(s->thread_pool));
+    json_put_integer(&json, "abandoned", (int64_t)known.abandoned);
+    json_put_number(&json, "abandoned_s",
+                    known.abandoned ? (double)(clock_ms() - known.abandoned_since_ms) / 1000
+                                    : 0);
+    json_close_object(&json);
+    return reply_text(p, 200, "application/json", &body);
 }
 
 enum MHD_Result page_version(connection *p)

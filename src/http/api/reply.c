@@ -95,6 +95,15 @@ static enum MHD_Result queue(connection *p, int status, struct MHD_Response *res
     return MHD_queue_response(p->mhd, (unsigned)status, response);
 }
 
+/* The time until the queue has had its turn; nobody waits in it beyond solve_timeout_s. */
+static int retry_after_s(const service *s)
+{
+    const double least = (double)s->settings->retry_after_s;
+    const double backlog =
+        fmin(thread_pool_backlog_s(s->thread_pool), s->settings->solve_timeout_s);
+    return (int)ceil(fmax(least, backlog));
+}
+
 /* Adds the headers that depend on the request, sends the response and drops it. */
 static enum MHD_Result finish(connection *p, int status, struct MHD_Response *response,
                               size_t size)
@@ -108,7 +117,7 @@ static enum MHD_Result finish(connection *p, int status, struct MHD_Response *re
     cors_add(p, response);
     if (status == 503) {
         char seconds[24];
-        snprintf(seconds, sizeof seconds, "%d", (int)p->service->settings->retry_after_s);
+        snprintf(seconds, sizeof seconds, "%d", retry_after_s(p->service));
         header(response, "Retry-After", seconds);
     }
     if (p->request->close || p->service->draining)
@@ -218,10 +227,13 @@ static bool already_has(const char *list, const char *hex)
 
 static void timing(const connection *p, struct MHD_Response *response, const entry *e)
 {
-    char value[128];
-    snprintf(value, sizeof value, "read;dur=%.3f, queue;dur=%.3f, %s;dur=%.3f",
-             p->request->read_us / 1000, e->queue_us / 1000, e->from_store ? "store" : "solve",
-             e->solve_us / 1000);
+    char value[192];
+    int size = snprintf(value, sizeof value, "read;dur=%.3f, queue;dur=%.3f, %s;dur=%.3f",
+                        p->request->read_us / 1000, e->queue_us / 1000,
+                        e->from_store ? "store" : "solve", e->solve_us / 1000);
+    if (!e->from_store)
+        snprintf(value + size, sizeof value - (size_t)size, ", cpu;dur=%.3f, estimate;dur=%.3f",
+                 e->cpu_us / 1000, e->estimate_us / 1000);
     header(response, "Server-Timing", value);
 }
 

@@ -206,29 +206,47 @@ static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *
     return MHD_YES;
 }
 
-/* Queues the flight for a worker; takes over `a` (NULL: only look it up in the store). */
-static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key *key,
-                                   flight *f)
+/* Takes over `a` (NULL: only look it up in the store). Returns NULL when memory ran out. */
+static task *task_new(service *s, evaluation *a, const cache_key *key, flight *f)
 {
-    service *s = p->service;
-    task *t = calloc(1, sizeof *t);
-    const bool room = t && thread_pool_reserve(s->thread_pool);
-    if (!room) {
-        entry *full = t ? unavailable(key, "the queue is full; try again later") : NULL;
-        cache_complete(s->cache, f, full); /* wakes this request too */
-        entry_unref(full);
+    task *t = malloc(sizeof *t);
+    if (!t) {
         evaluation_free(a);
-        free(t);
-        return reply_outcome(p);
+        return NULL;
     }
-    *t = (task){.job.work = task_work,
+    *t = (task){.job = {.work = task_work, .cost_us = a ? evaluation_cost_us(a) : 0},
                 .service = s,
                 .asking = a,
                 .key = *key,
                 .flight = f,
                 .given_us = clock_us()};
-    thread_pool_queue(s->thread_pool, &t->job);
-    return wait_outcome(p);
+    return t;
+}
+
+/* Queues the flight for a worker; takes over `a` (NULL: only look it up in the store). */
+static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key *key,
+                                   flight *f)
+{
+    service *s = p->service;
+    task *t = task_new(s, a, key, f);
+    if (t && thread_pool_queue(s->thread_pool, &t->job))
+        return wait_outcome(p);
+    entry *full = t ? unavailable(key, "the queue is full; try again later") : NULL;
+    cache_complete(s->cache, f, full); /* wakes this request too */
+    entry_unref(full);
+    if (t)
+        evaluation_free(t->asking);
+    free(t);
+    return reply_outcome(p);
+}
+
+void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f)
+{
+    task *t = task_new(s, a, key, f);
+    if (t)
+        thread_pool_queue_batch(s->thread_pool, &t->job);
+    else
+        cache_complete(s->cache, f, NULL);
 }
 
 /* POST with Accept: text/event-stream. */

@@ -24,6 +24,8 @@ void solve_give_up(struct connection *p, const char *why);
  * queued (clock_us), or 0. */
 void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
                   double given_us);
+/* Queues the flight of a batch's long item for a worker; takes over `a`. */
+void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f);
 /* Returns a refusal as an entry, for all requests that wait for the same answer; NULL when memory
  * ran out. */
 entry *refusal_entry(const cache_key *key, const problem *why);

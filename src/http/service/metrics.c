@@ -8,6 +8,8 @@
 
 #include <strum/version.h>
 
+#include "http/service/clock.h"
+
 /* The statuses this daemon answers with; the last row counts any other. */
 static const int statuses[] = {200, 204, 304, 400, 401, 404, 405,
                                413, 415, 422, 500, 501, 503, 0};
@@ -143,10 +145,27 @@ static void write_store(store_counters c, strbuf *out)
           c.away);
 }
 
+static void write_lanes(const thread_pool_counters *w, strbuf *out)
+{
+    strbuf_add_string(out, "# HELP strum_lane_jobs Work that waits for a worker, by lane.\n"
+                           "# TYPE strum_lane_jobs gauge\n");
+    for (int i = 0; i < LANES; i++)
+        strbuf_format(out, "strum_lane_jobs{lane=\"%s\"} %zu\n",
+                      thread_pool_lane_name((thread_pool_lane)i), w->queued[i]);
+    strbuf_add_string(out, "# HELP strum_lane_seconds Its estimated cost.\n"
+                           "# TYPE strum_lane_seconds gauge\n");
+    for (int i = 0; i < LANES; i++) {
+        strbuf_format(out, "strum_lane_seconds{lane=\"%s\"} ",
+                      thread_pool_lane_name((thread_pool_lane)i));
+        write_seconds((uint64_t)w->backlog_us[i], out);
+    }
+}
+
 void metrics_write(const metrics *m, const metrics_snapshot *now, strbuf *out)
 {
     const cache_counters c = now->cache;
     const thread_pool_counters w = now->pool;
+    const size_t queued = w.queued[LANE_CHEAP] + w.queued[LANE_COSTLY] + w.queued[LANE_LONG];
     write_requests(m, out);
     write_latency(m, out);
     value(out, "response_bytes_total", "counter", "Bytes of answers' bodies.", m->bytes);
@@ -168,6 +187,11 @@ void metrics_write(const metrics *m, const metrics_snapshot *now, strbuf *out)
           m->solve_failures);
     value(out, "cancels_total", "counter",
           "Answers given up: all clients had disconnected or timed out.", c.cancels);
+    value(out, "abandoned", "gauge", "Computations that nobody waits for, not ended yet.",
+          c.abandoned);
+    strbuf_add_string(out, "# HELP strum_abandoned_seconds Age of the oldest of them.\n"
+                           "# TYPE strum_abandoned_seconds gauge\nstrum_abandoned_seconds ");
+    write_seconds(c.abandoned ? (uint64_t)(clock_ms() - c.abandoned_since_ms) * 1000 : 0, out);
     value(out, "cache_evictions_total", "counter", "Answers dropped for room.", c.evictions);
     value(out, "cache_entries", "gauge", "Answers stored.", c.entries);
     value(out, "cache_bytes", "gauge", "Memory of stored answers, bookkeeping included.",
@@ -178,8 +202,10 @@ void metrics_write(const metrics *m, const metrics_snapshot *now, strbuf *out)
     value(out, "flights", "gauge", "Answers being computed or waiting for it.", c.flights);
     value(out, "workers", "gauge", "Worker threads.", (uint64_t)w.workers);
     value(out, "workers_busy", "gauge", "Workers that solve.", w.working);
-    value(out, "queue_depth", "gauge", "Requests that wait for a worker.", w.queued);
-    value(out, "queue_limit", "gauge", "Requests that may wait for a worker.", w.depth);
+    value(out, "queue_depth", "gauge", "Requests that wait for a worker.", queued);
+    value(out, "queue_limit", "gauge",
+          "Requests that may wait for a worker, of cheap and of other ones each.", w.depth);
+    write_lanes(&w, out);
     value(out, "queue_refused_total", "counter", "Requests refused for a full queue.",
           w.refused);
     value(out, "requests_busy", "gauge", "Requests under way.", now->busy);

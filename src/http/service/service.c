@@ -63,7 +63,8 @@ bool service_start(service *s, const settings *set, size_t routes,
     snprintf(fault, 256, "out of memory or threads");
     return (s->metrics = metrics_new(routes, path)) &&
            (s->cache = cache_new((size_t)set->cache_bytes)) &&
-           (s->thread_pool = thread_pool_new(workers, depth));
+           (s->thread_pool = thread_pool_new(&(thread_pool_options){
+                .workers = workers, .depth = depth, .cheap_us = set->cheap_us}));
 }
 
 bool service_solving(const service *s)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "http/service/settings.h"
+#include "http/service/settings_table.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -10,27 +10,10 @@
 
 #include "schema/schema.h"
 
-typedef enum setting_kind {
-    SETTING_TEXT,
-    SETTING_FLAG,
-    SETTING_COUNT,
-    SETTING_BYTES, /* a count that takes K, M or G (KiB, MiB, GiB) */
-    SETTING_NUMBER,
-    SETTING_CHOICE,
-} setting_kind;
-
-typedef struct setting {
-    const char *name;
-    setting_kind kind;
-    size_t offset;
-    double min, max;
-    const char *fallback, *help;
-} setting;
-
-static const char *const log_choices[] = {"none", "errors", "refusals", "all", NULL};
+const char *const settings_log_choices[] = {"none", "errors", "refusals", "all", NULL};
 
 #define AT(member) offsetof(settings, member)
-static const setting table[] = {
+const setting settings_table[] = {
     {"listen", SETTING_TEXT, AT(listen), 0, 0, "127.0.0.1:8080",
      "address:port to listen on, [address]:port for IPv6; port 0 takes a free port and logs "
      "it; "
@@ -44,9 +27,14 @@ static const setting table[] = {
     {"workers", SETTING_COUNT, AT(workers), 0, 1024, "0",
      "threads that solve requests estimated to take inline_us or longer; 0: one for each core"},
     {"queue_depth", SETTING_COUNT, AT(queue_depth), 0, 100000, "0",
-     "maximum number of requests that wait for a worker; more get 503; 0: 16 for each worker"},
+     "maximum number of requests that wait for a worker, cheap_us and others each; more get "
+     "503; 0: 16 for each worker"},
     {"inline_us", SETTING_NUMBER, AT(inline_us), 0, 1e6, "50",
      "a request estimated to take fewer microseconds is solved at once, without a worker"},
+    {"cheap_us", SETTING_NUMBER, AT(cheap_us), 0, 1e6, "2000",
+     "a request estimated to take fewer microseconds is cheap: one more worker is kept for "
+     "these; "
+     "0: none is"},
     {"cache_bytes", SETTING_BYTES, AT(cache_bytes), 0, 1e12, "64M",
      "maximum memory for stored answers, their bookkeeping included; 0 stores none"},
     {"store", SETTING_TEXT, AT(store), 0, 0, "",
@@ -88,7 +76,7 @@ static const setting table[] = {
     {"drain_timeout_s", SETTING_NUMBER, AT(drain_timeout_s), 0, 3600, "30",
      "maximum time (seconds) to finish the requests under way after SIGTERM or SIGINT"},
     {"retry_after_s", SETTING_COUNT, AT(retry_after_s), 0, 3600, "1",
-     "seconds named in Retry-After with 503"},
+     "minimum of the seconds named in Retry-After with 503, which follow from the queue"},
     {"cors_origins", SETTING_TEXT, AT(cors_origins), 0, 0, "",
      "origins whose pages may read answers: a comma-separated list, or *; none by default"},
     {"log_requests", SETTING_CHOICE, AT(log_requests), 0, LOG_ALL, "errors",
@@ -96,7 +84,8 @@ static const setting table[] = {
     {"log_sample", SETTING_COUNT, AT(log_sample), 1, 1e9, "1",
      "one successful request in this number is logged; errors and refusals always are"},
 };
-#define ROWS (sizeof table / sizeof *table)
+#define ROWS (sizeof settings_table / sizeof *settings_table)
+const size_t settings_rows = ROWS;
 
 /* ---- one value ---- */
 
@@ -141,8 +130,8 @@ static void fault_of(const setting *row, const char *value, const char *source, 
         break;
     case SETTING_CHOICE:
         strbuf_format(faults, "%s: %s must be one of", source, row->name);
-        for (size_t i = 0; log_choices[i]; i++)
-            strbuf_format(faults, "%s %s", i ? "," : "", log_choices[i]);
+        for (size_t i = 0; settings_log_choices[i]; i++)
+            strbuf_format(faults, "%s %s", i ? "," : "", settings_log_choices[i]);
         strbuf_format(faults, ", not \"%s\"\n", value);
         break;
     default:
@@ -175,8 +164,8 @@ static void set(settings *s, const setting *row, const char *value, const char *
         break;
     case SETTING_CHOICE:
         good = false;
-        for (size_t i = 0; log_choices[i]; i++) {
-            if (strcmp(value, log_choices[i]) == 0) {
+        for (size_t i = 0; settings_log_choices[i]; i++) {
+            if (strcmp(value, settings_log_choices[i]) == 0) {
                 *(int64_t *)place = (int64_t)i;
                 good = true;
             }
@@ -210,9 +199,9 @@ static const setting *find(const char *plain, const char *source, const char *gi
 {
     nearest near = {.wanted = plain};
     for (size_t i = 0; i < ROWS; i++) {
-        if (strcmp(table[i].name, plain) == 0)
-            return &table[i];
-        nearest_try(&near, table[i].name);
+        if (strcmp(settings_table[i].name, plain) == 0)
+            return &settings_table[i];
+        nearest_try(&near, settings_table[i].name);
     }
     strbuf_format(faults, "%s: unknown setting \"%s\"", source, given);
     if (near.name)
@@ -367,7 +356,7 @@ bool settings_read(settings *s, int argc, char *const argv[], char *const enviro
     *s = (settings){0};
     *action = SETTINGS_RUN;
     for (size_t i = 0; i < ROWS; i++)
-        set(s, &table[i], table[i].fallback, "default", faults);
+        set(s, &settings_table[i], settings_table[i].fallback, "default", faults);
     const char *path = config_path(argc, argv, environment);
     if (path)
         read_file(s, path, faults);
@@ -379,122 +368,7 @@ bool settings_read(settings *s, int argc, char *const argv[], char *const enviro
 void settings_clear(settings *s)
 {
     for (size_t i = 0; i < ROWS; i++)
-        if (table[i].kind == SETTING_TEXT)
-            free(*(char **)((char *)s + table[i].offset));
+        if (settings_table[i].kind == SETTING_TEXT)
+            free(*(char **)((char *)s + settings_table[i].offset));
     *s = (settings){0};
-}
-
-static const struct {
-    const char *flag, *help;
-} program_flags[] = {
-    {"--config FILE", "read settings from a file (also STRUM_CONFIG); # begins a comment line"},
-    {"--check-config", "name every fault in the settings and exit"},
-    {"--print-config", "print the settings in force, as a file, and exit"},
-    {"--version", "print the version and exit"},
-    {"--help", "print all settings and exit"},
-    {"--help-man", "print the manual page and exit"},
-};
-#define PROGRAM_FLAGS (sizeof program_flags / sizeof *program_flags)
-
-static void flag_of(const setting *row, char flag[64])
-{
-    snprintf(flag, 64, "--%s", row->name);
-    for (char *c = flag; *c; c++)
-        *c = *c == '_' ? '-' : *c;
-}
-
-static const char purpose[] = "Answers questions about cables as JSON over HTTP";
-static const char rules[] =
-    "Every setting can stand in a file (key = value), in the environment and among the\n"
-    "flags; the later of these wins. A setting workers is the key workers, the variable\n"
-    "STRUM_WORKERS and the flag --workers.";
-
-/* "(default; minimum to maximum)" */
-static void write_range(const setting *row, FILE *out)
-{
-    fprintf(out, "(%s", *row->fallback ? row->fallback : "empty");
-    if (row->min < row->max && row->kind != SETTING_CHOICE)
-        fprintf(out, "; %.15g to %.15g", row->min, row->max);
-    fputs(")\n", out);
-}
-
-void settings_help(FILE *out)
-{
-    fprintf(out, "usage: strumd [--setting value]...\n\n%s.\n\n%s\n\n", purpose, rules);
-    for (size_t i = 0; i < PROGRAM_FLAGS; i++)
-        fprintf(out, "  %-16s %s\n", program_flags[i].flag, program_flags[i].help);
-    fputs("\nsettings (default; range):\n", out);
-    for (size_t i = 0; i < ROWS; i++) {
-        char flag[64];
-        flag_of(&table[i], flag);
-        fprintf(out, "  %s ", flag);
-        write_range(&table[i], out);
-        fprintf(out, "      %s\n", table[i].help);
-    }
-}
-
-/* A line of text as roff reads it back unchanged. */
-static void write_roff(const char *text, FILE *out)
-{
-    for (; *text; text++) {
-        if (*text == '-' || *text == '\\')
-            fputs(*text == '-' ? "\\-" : "\\e", out);
-        else
-            fputc(*text, out);
-    }
-    fputc('\n', out);
-}
-
-void settings_man(const char *version, FILE *out)
-{
-    fprintf(out,
-            ".TH STRUMD 8 \"\" \"strum %s\"\n.SH NAME\nstrumd \\- %s\n.SH SYNOPSIS\n.B strumd\n"
-            "[\\fB\\-\\-\\fIsetting value\\fR]...\n.SH DESCRIPTION\n",
-            version, purpose);
-    write_roff(rules, out);
-    for (size_t i = 0; i < PROGRAM_FLAGS; i++) {
-        fputs(i ? ".TP\n.B " : ".SH OPTIONS\n.TP\n.B ", out);
-        write_roff(program_flags[i].flag, out);
-        write_roff(program_flags[i].help, out);
-    }
-    fputs(".SH SETTINGS\nEach with its default and its range.\n", out);
-    for (size_t i = 0; i < ROWS; i++) {
-        char flag[64];
-        flag_of(&table[i], flag);
-        fputs(".TP\n.B ", out);
-        write_roff(flag, out);
-        write_range(&table[i], out);
-        fputs(".br\n", out);
-        write_roff(table[i].help, out);
-    }
-    fputs(
-        ".SH SIGNALS\n.TP\n.B SIGTERM, SIGINT\n"
-        "refuse new connections and finish the requests under way; a second one ends at once\n"
-        ".SH EXIT STATUS\n0 when every request was finished, 1 when it could not start or cut\n"
-        "requests short, 2 when the settings have a fault.\n",
-        out);
-}
-
-void settings_print(const settings *s, FILE *out)
-{
-    for (size_t i = 0; i < ROWS; i++) {
-        const void *place = (const char *)s + table[i].offset;
-        fprintf(out, "%s = ", table[i].name);
-        switch (table[i].kind) {
-        case SETTING_TEXT:
-            fprintf(out, "%s\n", *(char *const *)place);
-            break;
-        case SETTING_FLAG:
-            fprintf(out, "%s\n", *(const bool *)place ? "yes" : "no");
-            break;
-        case SETTING_NUMBER:
-            fprintf(out, "%.17g\n", *(const double *)place);
-            break;
-        case SETTING_CHOICE:
-            fprintf(out, "%s\n", log_choices[*(const int64_t *)place]);
-            break;
-        default:
-            fprintf(out, "%" PRId64 "\n", *(const int64_t *)place);
-        }
-    }
 }

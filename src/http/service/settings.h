@@ -20,7 +20,7 @@ typedef struct settings {
     char *listen; /* texts are owned */
     bool allow_non_loopback;
     int64_t event_threads, workers, queue_depth;
-    double inline_us;
+    double inline_us, cheap_us;
     char *store, *store_secret_file, *store_password_file;
     double store_timeout_ms;
     int64_t store_expiry_s;

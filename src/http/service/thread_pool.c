@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "http/service/thread_pool.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <sys/resource.h> /* setpriority: on Linux of a thread */
@@ -10,119 +11,214 @@
 /* The numerics keep their arrays on the heap; the default stack of 8 MiB per thread would only
  * count against limits. */
 #define WORKER_STACK (1 << 20)
-/* Event threads have 0: a worker gets a tenth of their share of a core that both want. */
-#define WORKER_NICE 10
+/* Event threads have 0: a worker gets a tenth of their share of a core that both want. The
+ * worker of cheap jobs stands between them: it must not wait for a core that a costly job has. */
+#define WORKER_NICE       10
+#define CHEAP_WORKER_NICE 2
 
-/* Requests taken before one background job is taken. */
-#define BACKGROUND_AFTER 3
+/* A lane with work may be passed over so many times in a row. */
+#define PATIENCE 3
 
 typedef struct job_queue {
     job *first, **last;
+    int passed; /* times passed over while a job waited that might have begun */
 } job_queue;
+
+/* Requests refused for want of a place, since when. */
+typedef struct queue_limit {
+    size_t queued;
+    int64_t full_since_ms;
+} queue_limit;
 
 struct thread_pool {
     pthread_mutex_t lock;
-    pthread_cond_t work;
-    job_queue requests, background;
-    int turns; /* requests taken since the last background job */
-    bool ending;
+    pthread_cond_t work, cheap_work; /* of the workers, of the one for cheap jobs */
+    thread_pool_options options;
+    job_queue lanes[LANES];
+    queue_limit cheap, costly; /* LANE_CHEAP; LANE_COSTLY and LANE_LONG */
+    size_t busy, longs;        /* workers for all lanes at work; on long jobs */
+    bool cheap_busy, ending;
     thread_pool_counters count;
     pthread_t threads[];
 };
 
-static void job_queue_add(job_queue *q, job *j)
+static bool is_long(thread_pool_lane lane)
 {
+    return lane == LANE_LONG || lane == LANE_BATCH_LONG;
+}
+
+static size_t long_limit(const thread_pool *c)
+{
+    return c->options.workers > 1 ? (size_t)c->options.workers - 1 : 1;
+}
+
+static bool may_begin(const thread_pool *c, thread_pool_lane lane)
+{
+    return c->lanes[lane].first && (!is_long(lane) || c->longs < long_limit(c));
+}
+
+/* ---- the queues ---- */
+
+static queue_limit *limit_of(thread_pool *c, thread_pool_lane lane)
+{
+    return lane == LANE_CHEAP                         ? &c->cheap
+           : lane == LANE_COSTLY || lane == LANE_LONG ? &c->costly
+                                                      : NULL;
+}
+
+static void add(thread_pool *c, job *j)
+{
+    job_queue *q = &c->lanes[j->lane];
     j->next = NULL;
     *q->last = j;
     q->last = &j->next;
+    c->count.queued[j->lane]++;
+    c->count.backlog_us[j->lane] += j->cost_us;
+    /* Both: the one for cheap jobs may be at work on a longer one. */
+    if (j->lane == LANE_CHEAP)
+        pthread_cond_signal(&c->cheap_work);
+    pthread_cond_signal(&c->work);
 }
 
-static job *job_queue_take(job_queue *q)
+static job *take_from(thread_pool *c, thread_pool_lane lane)
 {
+    job_queue *q = &c->lanes[lane];
     job *j = q->first;
     q->first = j->next;
     if (!q->first)
         q->last = &q->first;
+    c->count.queued[lane]--;
+    /* Sums of rounded numbers: nothing is left of them when nothing waits. */
+    c->count.backlog_us[lane] = q->first ? fmax(c->count.backlog_us[lane] - j->cost_us, 0) : 0;
+    queue_limit *limit = limit_of(c, lane);
+    if (limit) {
+        limit->queued--;
+        /* A single free place does not count: under a lasting overload it is taken at once. */
+        if (limit->queued <= c->options.depth / 2)
+            limit->full_since_ms = 0;
+    }
     return j;
 }
 
-static size_t background_limit(const thread_pool *c)
+/* Returns the next job of a worker for all lanes, or NULL. */
+static job *take(thread_pool *c)
 {
-    return c->count.workers > 1 ? (size_t)c->count.workers - 1 : 1;
+    int next = LANES;
+    for (int i = LANES - 1; i >= 0; i--)
+        if (may_begin(c, (thread_pool_lane)i) &&
+            (next == LANES || c->lanes[next].passed < PATIENCE))
+            next = i;
+    if (next == LANES)
+        return NULL;
+    for (int i = next + 1; i < LANES; i++)
+        c->lanes[i].passed += may_begin(c, (thread_pool_lane)i);
+    c->lanes[next].passed = 0;
+    return take_from(c, (thread_pool_lane)next);
 }
 
-static job *take_request(thread_pool *c)
+/* ---- the workers ---- */
+
+/* Under the lock, which it releases meanwhile. */
+static void work_on(thread_pool *c, job *j)
 {
-    c->turns++;
-    c->count.queued--;
-    /* A single free place does not count: under a lasting overload it is taken at once. */
-    if (c->count.queued <= c->count.depth / 2)
-        c->count.full_since_ms = 0;
-    return job_queue_take(&c->requests);
+    const bool takes_long = is_long(j->lane);
+    c->longs += takes_long;
+    c->count.working++;
+    pthread_mutex_unlock(&c->lock);
+    j->work(j); /* j may be freed by this */
+    pthread_mutex_lock(&c->lock);
+    c->count.working--;
+    c->count.done++;
+    c->longs -= takes_long;
+    /* A worker that waits may now begin a long one. */
+    if (takes_long && (c->lanes[LANE_LONG].first || c->lanes[LANE_BATCH_LONG].first))
+        pthread_cond_signal(&c->work);
 }
 
-/* Returns the next job, or NULL. */
-static job *take(thread_pool *c, bool *background)
+/* If the call fails, only the order among threads is lost. */
+static void step_back(int nice)
 {
-    const bool may = c->background.first && c->count.background < background_limit(c);
-    *background = may && (!c->requests.first || c->turns >= BACKGROUND_AFTER);
-    if (*background) {
-        c->turns = 0;
-        c->count.background++;
-        return job_queue_take(&c->background);
-    }
-    return c->requests.first ? take_request(c) : NULL;
+    (void)setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + nice);
+}
+
+static bool has_work(const thread_pool *c)
+{
+    for (int i = 0; i < LANES; i++)
+        if (c->lanes[i].first)
+            return true;
+    return false;
 }
 
 static void *worker(void *argument)
 {
     thread_pool *c = argument;
-    bool background;
-    /* Event threads go first, so that a stored answer does not wait for one being solved. If
-     * the call fails, only that order is lost. */
-    (void)setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + WORKER_NICE);
+    step_back(WORKER_NICE);
     pthread_mutex_lock(&c->lock);
     for (;;) {
-        job *j = take(c, &background);
-        if (!j) {
-            if (c->ending && !c->background.first)
-                break;
+        job *j = take(c);
+        if (j) {
+            c->busy++;
+            work_on(c, j);
+            c->busy--;
+        } else if (c->ending && !has_work(c)) {
+            break;
+        } else {
             pthread_cond_wait(&c->work, &c->lock);
-            continue;
         }
-        c->count.working++;
-        pthread_mutex_unlock(&c->lock);
-        j->work(j); /* j may be freed by this */
-        pthread_mutex_lock(&c->lock);
-        c->count.working--;
-        c->count.done++;
-        if (background)
-            c->count.background--;
     }
     pthread_cond_broadcast(&c->work);
     pthread_mutex_unlock(&c->lock);
     return NULL;
 }
 
-thread_pool *thread_pool_new(int workers, size_t depth)
+static void *cheap_worker(void *argument)
 {
-    thread_pool *c = calloc(1, sizeof *c + (size_t)workers * sizeof *c->threads);
+    thread_pool *c = argument;
+    step_back(CHEAP_WORKER_NICE);
+    pthread_mutex_lock(&c->lock);
+    for (;;) {
+        c->cheap_busy = c->lanes[LANE_CHEAP].first;
+        if (c->cheap_busy)
+            work_on(c, take_from(c, LANE_CHEAP));
+        else if (c->ending)
+            break;
+        else
+            pthread_cond_wait(&c->cheap_work, &c->lock);
+    }
+    pthread_mutex_unlock(&c->lock);
+    return NULL;
+}
+
+static bool start(thread_pool *c, const pthread_attr_t *attributes, void *(*run)(void *))
+{
+    if (pthread_create(&c->threads[c->count.workers], attributes, run, c) != 0)
+        return false;
+    c->count.workers++;
+    return true;
+}
+
+thread_pool *thread_pool_new(const thread_pool_options *options)
+{
+    thread_pool *c = calloc(1, sizeof *c + ((size_t)options->workers + 1) * sizeof *c->threads);
     if (!c)
         return NULL;
-    c->requests.last = &c->requests.first;
-    c->background.last = &c->background.first;
-    c->count.depth = depth;
+    for (int i = 0; i < LANES; i++)
+        c->lanes[i].last = &c->lanes[i].first;
+    c->options = *options;
+    c->count.depth = options->depth;
     pthread_mutex_init(&c->lock, NULL);
     pthread_cond_init(&c->work, NULL);
+    pthread_cond_init(&c->cheap_work, NULL);
     pthread_attr_t attributes;
-    if (pthread_attr_init(&attributes) == 0) {
+    bool good = pthread_attr_init(&attributes) == 0;
+    if (good) {
         pthread_attr_setstacksize(&attributes, WORKER_STACK);
-        while (c->count.workers < workers &&
-               pthread_create(&c->threads[c->count.workers], &attributes, worker, c) == 0)
-            c->count.workers++;
+        for (int i = 0; i < options->workers && good; i++)
+            good = start(c, &attributes, worker);
+        good = good && (options->cheap_us <= 0 || start(c, &attributes, cheap_worker));
         pthread_attr_destroy(&attributes);
     }
-    if (c->count.workers < workers) {
+    if (!good) {
         thread_pool_free(c);
         return NULL;
     }
@@ -136,50 +232,71 @@ void thread_pool_free(thread_pool *c)
     pthread_mutex_lock(&c->lock);
     c->ending = true;
     pthread_cond_broadcast(&c->work);
+    pthread_cond_broadcast(&c->cheap_work);
     pthread_mutex_unlock(&c->lock);
     for (int i = 0; i < c->count.workers; i++)
         pthread_join(c->threads[i], NULL);
+    pthread_cond_destroy(&c->cheap_work);
     pthread_cond_destroy(&c->work);
     pthread_mutex_destroy(&c->lock);
     free(c);
 }
 
-bool thread_pool_reserve(thread_pool *c)
+/* ---- from outside ---- */
+
+bool thread_pool_queue(thread_pool *c, job *j)
 {
     pthread_mutex_lock(&c->lock);
+    j->lane = j->cost_us < c->options.cheap_us   ? LANE_CHEAP
+              : j->cost_us < THREAD_POOL_LONG_US ? LANE_COSTLY
+                                                 : LANE_LONG;
+    queue_limit *limit = limit_of(c, j->lane);
     /* An idle worker takes a job at once: it does not wait in the queue. */
-    const size_t idle = (size_t)c->count.workers - c->count.working;
-    const bool room = c->count.queued < c->count.depth + idle;
-    if (room)
-        c->count.queued++;
-    else
+    const size_t idle =
+        (size_t)c->options.workers - c->busy + (j->lane == LANE_CHEAP && !c->cheap_busy);
+    const bool room = limit->queued < c->options.depth + idle;
+    if (room) {
+        limit->queued++;
+        add(c, j);
+    } else {
         c->count.refused++;
-    if (!room && !c->count.full_since_ms)
-        c->count.full_since_ms = clock_ms();
+        limit->full_since_ms = limit->full_since_ms ? limit->full_since_ms : clock_ms();
+    }
     pthread_mutex_unlock(&c->lock);
     return room;
 }
 
-void thread_pool_queue(thread_pool *c, job *j)
+void thread_pool_queue_batch(thread_pool *c, job *j)
 {
     pthread_mutex_lock(&c->lock);
-    job_queue_add(&c->requests, j);
-    pthread_cond_signal(&c->work);
-    pthread_mutex_unlock(&c->lock);
-}
-
-void thread_pool_queue_background(thread_pool *c, job *j)
-{
-    pthread_mutex_lock(&c->lock);
-    job_queue_add(&c->background, j);
-    pthread_cond_signal(&c->work);
+    j->lane = j->cost_us < THREAD_POOL_LONG_US ? LANE_BATCH : LANE_BATCH_LONG;
+    add(c, j);
     pthread_mutex_unlock(&c->lock);
 }
 
 thread_pool_counters thread_pool_count(thread_pool *c)
 {
     pthread_mutex_lock(&c->lock);
-    const thread_pool_counters count = c->count;
+    thread_pool_counters count = c->count;
+    const int64_t cheap = c->cheap.full_since_ms, costly = c->costly.full_since_ms;
+    count.full_since_ms = cheap && (!costly || cheap < costly) ? cheap : costly;
     pthread_mutex_unlock(&c->lock);
     return count;
+}
+
+double thread_pool_backlog_s(thread_pool *c)
+{
+    pthread_mutex_lock(&c->lock);
+    const double *us = c->count.backlog_us;
+    const double all = us[LANE_CHEAP] + us[LANE_COSTLY] + us[LANE_LONG];
+    const double seconds =
+        fmax(all / c->options.workers, us[LANE_LONG] / (double)long_limit(c)) * 1e-6;
+    pthread_mutex_unlock(&c->lock);
+    return seconds;
+}
+
+const char *thread_pool_lane_name(thread_pool_lane lane)
+{
+    static const char *const names[LANES] = {"cheap", "costly", "long", "batch", "batch_long"};
+    return names[lane];
 }

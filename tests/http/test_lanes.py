@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cheap and costly questions beside each other: who waits for whom, and what the daemon tells of it."""
+import contextlib
+import math
+import re
+
+from conftest import CHEAP, ENDLESS, FORCED
+from test_load import ask, wait_metric
+
+
+def lane(strumd, name, metric="lane_seconds"):
+    found = re.search(rf'^strum_{metric}{{lane="{name}"}} (\S+)$', strumd.get("/metrics").text, re.M)
+    return float(found.group(1))
+
+
+def timing(response):
+    """Server-Timing in milliseconds."""
+    return {name: float(ms) for name, ms in re.findall(r"(\w+);dur=([\d.]+)", response.headers["Server-Timing"])}
+
+
+def endless(number):
+    return {**ENDLESS, "points": 9000 + number}
+
+
+@contextlib.contextmanager
+def busy(strumd, count):
+    """So many workers are at work without end, inside."""
+    with contextlib.ExitStack() as stack:
+        for connection in ask(strumd, [endless(n) for n in range(count)], FORCED):
+            stack.enter_context(connection)
+        wait_metric(strumd, "workers_busy", count)
+        yield
+    wait_metric(strumd, "workers_busy", 0)
+
+
+def test_cheap_questions_do_not_wait_for_costly_ones(start_strumd):
+    """Every worker has work without end, more waits: cheap questions that were never asked are answered."""
+    strumd = start_strumd("--workers", "1", "--queue-depth", "3", "--inline-us", "0")
+    with busy(strumd, 1):
+        waiting = ask(strumd, [endless(100 + n) for n in range(4)], FORCED)
+        wait_metric(strumd, "queue_refused_total", 1)
+        for n in range(20):
+            answer = strumd.post({**CHEAP, "sag_parameter": 0.5 + 0.01 * n})
+            assert answer.status_code == 200 and answer.headers["Cache-Status"] == "strum; fwd=miss; stored"
+        for connection in waiting:
+            connection.close()
+
+
+def test_long_questions_leave_a_worker_to_others(start_strumd):
+    strumd = start_strumd("--workers", "2", "--cheap-us", "0", "--inline-us", "0")
+    with busy(strumd, 1):
+        second, = ask(strumd, [endless(100)], FORCED)
+        wait_metric(strumd, "queue_depth", 1)
+        assert strumd.post(CHEAP).status_code == 200  # not cheap by these settings
+        wait_metric(strumd, "workers_busy", 1)
+        assert lane(strumd, "long", "lane_jobs") == 1
+        second.close()
+
+
+def test_retry_after_follows_from_the_queue(start_strumd):
+    strumd = start_strumd("--workers", "1", "--queue-depth", "2", "--retry-after-s", "3", "--solve-timeout-s", "5000")
+    with busy(strumd, 1):
+        waiting = ask(strumd, [endless(100 + n) for n in range(2)], FORCED)
+        wait_metric(strumd, "queue_depth", 2)
+        refused = strumd.post(endless(200), FORCED)
+        assert refused.status_code == 503
+        assert int(refused.headers["Retry-After"]) == math.ceil(lane(strumd, "long")) > 3
+        for connection in waiting:
+            connection.close()
+    # nothing waits: what is named is the setting
+    wait_metric(strumd, "queue_depth", 0)
+    with busy(strumd, 1):
+        assert strumd.get("/readyz").json()["backlog_s"] == 0
+
+
+def test_retry_after_is_at_most_the_time_that_anyone_waits(start_strumd):
+    strumd = start_strumd("--workers", "1", "--queue-depth", "2", "--solve-timeout-s", "30")
+    with busy(strumd, 1):
+        waiting = ask(strumd, [endless(100 + n) for n in range(2)], FORCED)
+        wait_metric(strumd, "queue_depth", 2)
+        assert strumd.post(endless(200), FORCED).headers["Retry-After"] == "30"
+        for connection in waiting:
+            connection.close()
+
+
+def test_abandoned_work_is_seen(start_strumd):
+    strumd = start_strumd("--workers", "1")
+    ready = strumd.get("/readyz").json()
+    assert ready == {"status": "ready", "workers": 2, "working": 0, "backlog_s": 0, "abandoned": 0, "abandoned_s": 0}
+    with busy(strumd, 1):
+        leaving, = ask(strumd, [endless(100)], FORCED)
+        wait_metric(strumd, "queue_depth", 1)
+        leaving.close()
+        wait_metric(strumd, "abandoned", 1)
+        ready = strumd.get("/readyz").json()
+        assert ready["abandoned"] == 1 and ready["working"] == 1 and ready["backlog_s"] > 0
+        ages = []
+        while len(ages) < 2 or ages[-1] <= ages[0]:  # it grows
+            ages.append(strumd.get("/readyz").json()["abandoned_s"])
+        assert re.search(r"^strum_abandoned_seconds \d+\.\d{6}$", strumd.get("/metrics").text, re.M)
+    wait_metric(strumd, "abandoned", 0)
+    assert strumd.get("/readyz").json()["abandoned_s"] == 0
+
+
+def test_the_estimate_is_told(start_strumd):
+    strumd = start_strumd()
+    told = timing(strumd.post({**CHEAP, "sag_parameter": 0.7}))
+    assert set(told) == {"read", "queue", "solve", "cpu", "estimate"}
+    assert 0 < told["cpu"] <= told["solve"] + 0.01 and told["estimate"] > 0
