@@ -8,7 +8,12 @@
  * functions of the same names take its place in the daemon; libstrum leaves its host's alone.
  * tests/unit/suspended/test_threads.c fails without them.
  * The threaded flavour is no way out: it starts threads before main, and more of them.
+ *
+ * A call of BLAS cannot fail: without a buffer it writes to address 0. One buffer is therefore
+ * shared, made before any thread, for which those wait that find no address space for their own.
  */
+#include "blas_memory.h"
+
 #include <pthread.h>
 #include <stddef.h>
 #include <sys/mman.h>
@@ -27,6 +32,41 @@ typedef struct spare {
 static _Thread_local spare *spares;
 static pthread_key_t thread_end;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+/* The shared one; NULL until it is made. */
+static pthread_mutex_t shared_lock = PTHREAD_MUTEX_INITIALIZER;
+static pthread_cond_t shared_back = PTHREAD_COND_INITIALIZER;
+static void *shared;
+static bool shared_taken;
+
+static void *map_buffer(void)
+{
+    void *buffer = mmap(NULL, BUFFER_SIZE, PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    return buffer != MAP_FAILED ? buffer : NULL;
+}
+
+bool blas_memory_start(void)
+{
+    pthread_mutex_lock(&shared_lock);
+    if (shared == NULL)
+        shared = map_buffer();
+    const bool made = shared != NULL;
+    pthread_mutex_unlock(&shared_lock);
+    return made;
+}
+
+/* The shared buffer; NULL where it is taken, and `wait` is false, or was never made. */
+static void *take_shared(bool wait)
+{
+    pthread_mutex_lock(&shared_lock);
+    while (wait && shared != NULL && shared_taken)
+        pthread_cond_wait(&shared_back, &shared_lock);
+    void *buffer = shared_taken ? NULL : shared;
+    shared_taken = shared_taken || buffer != NULL;
+    pthread_mutex_unlock(&shared_lock);
+    return buffer;
+}
 
 static void release(void *unused)
 {
@@ -50,15 +90,28 @@ void *blas_memory_alloc(int position)
         spares = s->next;
         return s;
     }
-    void *buffer = mmap(NULL, BUFFER_SIZE, PROT_READ | PROT_WRITE,
-                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    void *buffer = take_shared(false);
+    if (buffer != NULL)
+        return buffer;
+    buffer = map_buffer();
+    if (buffer == NULL)
+        return take_shared(true);
     pthread_once(&once, start);
     (void)pthread_setspecific(thread_end, &spares);
-    return buffer != MAP_FAILED ? buffer : NULL; /* OpenBLAS has no way to fail */
+    return buffer;
 }
 
 void blas_memory_free(void *buffer)
 {
+    pthread_mutex_lock(&shared_lock);
+    const bool was_shared = buffer == shared;
+    if (was_shared) {
+        shared_taken = false;
+        pthread_cond_signal(&shared_back);
+    }
+    pthread_mutex_unlock(&shared_lock);
+    if (was_shared)
+        return;
     spare *s = buffer;
     s->next = spares;
     spares = s;

@@ -5,6 +5,7 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include "blas_memory.h"
 #include "http/api/api.h"
 #include "http/service/log.h"
 #include "http/service/settings.h"
@@ -25,7 +26,11 @@ static int serve(const settings *set)
     signal(SIGPIPE, SIG_IGN);
     const int signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
     bool clean = false;
-    if (api_start(&daemon, set, fault)) {
+    daemon = (api){.server.at.fd = -1};
+    if (!blas_memory_start()) {
+        log_say("error", "start",
+                "no address space for a buffer of BLAS (128 MB): raise the limit");
+    } else if (api_start(&daemon, set, fault)) {
         log_line line;
         json_writer *json = log_open(&line, "info", "listening");
         json_put_string(json, "address", daemon.server.at.name);
