@@ -224,7 +224,7 @@ static void describe_alternative(const schema *s, const char *title, field_set r
 }
 
 /* Exactly one alternative must hold, also for a request that gives none of the fields: a second
- * group that needs nothing holds only where one of its fields is given. */
+ * group that needs none of its own fields holds only where one of them is given. */
 static void describe_group(const schema *s, const alternatives *g, json_writer *json)
 {
     bool empty_allowed = false;
@@ -236,7 +236,7 @@ static void describe_group(const schema *s, const alternatives *g, json_writer *
         const group one = g->groups[i];
         const field_set required = one.required | one.needed;
         field_set some = 0;
-        if (required == 0) {
+        if (one.required == 0) {
             some = empty_allowed ? one.own : 0;
             empty_allowed = true;
         }
