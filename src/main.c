@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* strumd: settings, start, wait for a signal, drain, stop. */
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/signalfd.h>
@@ -10,6 +11,18 @@
 #include "http/service/settings.h"
 
 extern char **environ;
+
+/* A reader of the log that is stuck does not keep the process from ending. */
+#define LAST_LINES_MS 1000
+
+/* Without them, the log would be written into the first connection or file that gets their
+ * number. */
+static void open_standard_descriptors(void)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0)
+            _exit(1);
+}
 
 static int serve(const settings *set)
 {
@@ -25,6 +38,7 @@ static int serve(const settings *set)
     signal(SIGPIPE, SIG_IGN);
     const int signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
     bool clean = false;
+    log_start();
     if (api_start(&daemon, set, fault)) {
         log_line line;
         json_writer *json = log_open(&line, "info", "listening");
@@ -37,13 +51,16 @@ static int serve(const settings *set)
                 clean ? "all requests were finished" : "requests were cut short");
         /* Nobody waits for what a worker still solves, and it may take long: the process ends
          * with it instead of waiting for it to be freed. */
-        if (!clean && service_solving(&daemon.service))
+        if (!clean && service_solving(&daemon.service)) {
+            log_flush(LAST_LINES_MS);
             _exit(1);
+        }
     } else {
         log_say("error", "start", "%s", fault);
     }
     api_free(&daemon);
     close(signals);
+    log_flush(LAST_LINES_MS);
     return clean ? 0 : 1;
 }
 
@@ -53,6 +70,7 @@ int main(int argc, char *argv[])
     settings_action action;
     strbuf faults = {0};
     int code = 0;
+    open_standard_descriptors();
     if (!settings_read(&set, argc, argv, environ, &action, &faults)) {
         fputs(faults.data ? faults.data : "out of memory\n", stderr);
         code = 2;
