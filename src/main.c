@@ -24,19 +24,52 @@ static void open_standard_descriptors(void)
             _exit(1);
 }
 
+/* Returns a descriptor for those that mean something here. The others that would end the process
+ * without a fault of its own are ignored: a stray one is no reason to stop. SIGQUIT is left as it
+ * is, for a core. */
+static int take_signals(void)
+{
+    static const int ours[] = {SIGTERM, SIGINT, SIGHUP};
+    static const int strays[] = {SIGPIPE, SIGUSR1, SIGUSR2,   SIGALRM, SIGVTALRM,
+                                 SIGPROF, SIGIO,   SIGSTKFLT, SIGPWR,  SIGXFSZ};
+    sigset_t taken;
+    sigemptyset(&taken);
+    for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
+        sigaddset(&taken, ours[i]);
+    /* Before any thread begins: they inherit it, and the signals come to the descriptor only. */
+    pthread_sigmask(SIG_BLOCK, &taken, NULL);
+    for (size_t i = 0; i < sizeof strays / sizeof *strays; i++)
+        signal(strays[i], SIG_IGN);
+    for (int number = SIGRTMIN; number <= SIGRTMAX; number++)
+        signal(number, SIG_IGN);
+    return signalfd(-1, &taken, SFD_CLOEXEC | SFD_NONBLOCK);
+}
+
+/* Opens what the settings name, and lets go of it again. Returns the exit status. */
+static int check(const settings *set)
+{
+    strbuf faults = {0}, notes = {0};
+    char fault[256];
+    service_check(set, &faults, &notes);
+    if (!listen_check(set->listen, set->allow_non_loopback || *set->token_file, fault))
+        strbuf_format(&faults, "%s\n", fault);
+    const bool good = faults.size == 0 && !faults.failed;
+    if (notes.data)
+        fputs(notes.data, stdout);
+    if (good)
+        puts("settings are good");
+    else
+        fputs(faults.data ? faults.data : "out of memory\n", stderr);
+    strbuf_clear(&faults);
+    strbuf_clear(&notes);
+    return good ? 0 : 2;
+}
+
 static int serve(const settings *set)
 {
     api daemon;
     char fault[256];
-    sigset_t ends;
-    sigemptyset(&ends);
-    sigaddset(&ends, SIGTERM);
-    sigaddset(&ends, SIGINT);
-    /* Before any thread begins: they inherit it, and the signals come to the descriptor only.
-     */
-    pthread_sigmask(SIG_BLOCK, &ends, NULL);
-    signal(SIGPIPE, SIG_IGN);
-    const int signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
+    const int signals = take_signals();
     bool clean = false;
     log_start();
     if (api_start(&daemon, set, fault)) {
@@ -83,7 +116,7 @@ int main(int argc, char *argv[])
     } else if (action == SETTINGS_PRINT) {
         settings_print(&set, stdout);
     } else if (action == SETTINGS_CHECK) {
-        puts("settings are good");
+        code = check(&set);
     } else {
         code = serve(&set);
     }

@@ -8,29 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "http/service/settings_table.h"
 #include "schema/schema.h"
 
-typedef enum setting_kind {
-    SETTING_TEXT,
-    SETTING_FLAG,
-    SETTING_COUNT,
-    SETTING_BYTES, /* a count that takes K, M or G (KiB, MiB, GiB) */
-    SETTING_NUMBER,
-    SETTING_CHOICE,
-} setting_kind;
-
-typedef struct setting {
-    const char *name;
-    setting_kind kind;
-    size_t offset;
-    double min, max;
-    const char *fallback, *help;
-} setting;
-
-static const char *const log_choices[] = {"none", "errors", "refusals", "all", NULL};
+const char *const log_choices[] = {"none", "errors", "refusals", "all", NULL};
 
 #define AT(member) offsetof(settings, member)
-static const setting table[] = {
+const setting settings_table[] = {
     {"listen", SETTING_TEXT, AT(listen), 0, 0, "127.0.0.1:8080",
      "address:port to listen on, [address]:port for IPv6; port 0 takes a free port and logs "
      "it; "
@@ -38,7 +22,9 @@ static const setting table[] = {
     {"allow_non_loopback", SETTING_FLAG, AT(allow_non_loopback), 0, 0, "no",
      "accept a listen address that other machines can reach even without token_file"},
     {"token_file", SETTING_TEXT, AT(token_file), 0, 0, "",
-     "file of bearer tokens, one a line; every request except probes must carry one of them"},
+     "file of bearer tokens, one a line; every request except probes must carry one of them; "
+     "read "
+     "again at SIGHUP"},
     {"event_threads", SETTING_COUNT, AT(event_threads), 1, 64, "1",
      "threads that read requests and send answers"},
     {"workers", SETTING_COUNT, AT(workers), 0, 1024, "0",
@@ -96,7 +82,8 @@ static const setting table[] = {
     {"log_sample", SETTING_COUNT, AT(log_sample), 1, 1e9, "1",
      "one successful request in this number is logged; errors and refusals always are"},
 };
-#define ROWS (sizeof table / sizeof *table)
+#define ROWS (sizeof settings_table / sizeof *settings_table)
+const size_t settings_rows = ROWS;
 
 /* ---- one value ---- */
 
@@ -205,15 +192,23 @@ static void plain_name(const char *name, size_t size, char plain[64])
     plain[i] = '\0';
 }
 
+static const setting *known(const char *plain)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (strcmp(settings_table[i].name, plain) == 0)
+            return &settings_table[i];
+    return NULL;
+}
+
 static const setting *find(const char *plain, const char *source, const char *given,
                            strbuf *faults)
 {
+    const setting *row = known(plain);
+    if (row)
+        return row;
     nearest near = {.wanted = plain};
-    for (size_t i = 0; i < ROWS; i++) {
-        if (strcmp(table[i].name, plain) == 0)
-            return &table[i];
-        nearest_try(&near, table[i].name);
-    }
+    for (size_t i = 0; i < ROWS; i++)
+        nearest_try(&near, settings_table[i].name);
     strbuf_format(faults, "%s: unknown setting \"%s\"", source, given);
     if (near.name)
         strbuf_format(faults, "; did you mean %s?", near.name);
@@ -269,6 +264,25 @@ static void read_file(settings *s, const char *path, strbuf *faults)
 
 #define ENVIRONMENT_PREFIX "STRUM_"
 
+/* Whether `plain` has the word `word`, at its beginning or after "_", and at its end or before "_".
+ */
+static bool has_word(const char *plain, const char *word)
+{
+    const size_t size = strlen(word);
+    for (const char *at = strstr(plain, word); at; at = strstr(at + 1, word))
+        if ((at == plain || at[-1] == '_') && (at[size] == '\0' || at[size] == '_'))
+            return true;
+    return false;
+}
+
+/* For each service of its namespace Kubernetes sets NAME_SERVICE_HOST, NAME_SERVICE_PORT...,
+ * NAME_PORT and NAME_PORT_80_TCP...: those named strum or strum-store get our prefix. */
+static bool is_of_cluster(const char *plain)
+{
+    return has_word(plain, "service_host") || has_word(plain, "service_port") ||
+           has_word(plain, "port");
+}
+
 static void read_environment(settings *s, char *const environment[], strbuf *faults)
 {
     const size_t prefix = sizeof ENVIRONMENT_PREFIX - 1;
@@ -279,9 +293,7 @@ static void read_environment(settings *s, char *const environment[], strbuf *fau
         char plain[64], name[96];
         snprintf(name, sizeof name, "%.*s", (int)(equals - *variable), *variable);
         plain_name(name + prefix, strlen(name + prefix), plain);
-        /* Kubernetes sets STRUM_PORT... and STRUM_SERVICE_... for a service named strum. */
-        if (strncmp(plain, "port", 4) == 0 || strncmp(plain, "service_", 8) == 0 ||
-            strcmp(plain, "config") == 0)
+        if (strcmp(plain, "config") == 0 || (!known(plain) && is_of_cluster(plain)))
             continue;
         const setting *row = find(plain, "environment", name, faults);
         if (row)
@@ -367,7 +379,7 @@ bool settings_read(settings *s, int argc, char *const argv[], char *const enviro
     *s = (settings){0};
     *action = SETTINGS_RUN;
     for (size_t i = 0; i < ROWS; i++)
-        set(s, &table[i], table[i].fallback, "default", faults);
+        set(s, &settings_table[i], settings_table[i].fallback, "default", faults);
     const char *path = config_path(argc, argv, environment);
     if (path)
         read_file(s, path, faults);
@@ -379,122 +391,7 @@ bool settings_read(settings *s, int argc, char *const argv[], char *const enviro
 void settings_clear(settings *s)
 {
     for (size_t i = 0; i < ROWS; i++)
-        if (table[i].kind == SETTING_TEXT)
-            free(*(char **)((char *)s + table[i].offset));
+        if (settings_table[i].kind == SETTING_TEXT)
+            free(*(char **)((char *)s + settings_table[i].offset));
     *s = (settings){0};
-}
-
-static const struct {
-    const char *flag, *help;
-} program_flags[] = {
-    {"--config FILE", "read settings from a file (also STRUM_CONFIG); # begins a comment line"},
-    {"--check-config", "name every fault in the settings and exit"},
-    {"--print-config", "print the settings in force, as a file, and exit"},
-    {"--version", "print the version and exit"},
-    {"--help", "print all settings and exit"},
-    {"--help-man", "print the manual page and exit"},
-};
-#define PROGRAM_FLAGS (sizeof program_flags / sizeof *program_flags)
-
-static void flag_of(const setting *row, char flag[64])
-{
-    snprintf(flag, 64, "--%s", row->name);
-    for (char *c = flag; *c; c++)
-        *c = *c == '_' ? '-' : *c;
-}
-
-static const char purpose[] = "Answers questions about cables as JSON over HTTP";
-static const char rules[] =
-    "Every setting can stand in a file (key = value), in the environment and among the\n"
-    "flags; the later of these wins. A setting workers is the key workers, the variable\n"
-    "STRUM_WORKERS and the flag --workers.";
-
-/* "(default; minimum to maximum)" */
-static void write_range(const setting *row, FILE *out)
-{
-    fprintf(out, "(%s", *row->fallback ? row->fallback : "empty");
-    if (row->min < row->max && row->kind != SETTING_CHOICE)
-        fprintf(out, "; %.15g to %.15g", row->min, row->max);
-    fputs(")\n", out);
-}
-
-void settings_help(FILE *out)
-{
-    fprintf(out, "usage: strumd [--setting value]...\n\n%s.\n\n%s\n\n", purpose, rules);
-    for (size_t i = 0; i < PROGRAM_FLAGS; i++)
-        fprintf(out, "  %-16s %s\n", program_flags[i].flag, program_flags[i].help);
-    fputs("\nsettings (default; range):\n", out);
-    for (size_t i = 0; i < ROWS; i++) {
-        char flag[64];
-        flag_of(&table[i], flag);
-        fprintf(out, "  %s ", flag);
-        write_range(&table[i], out);
-        fprintf(out, "      %s\n", table[i].help);
-    }
-}
-
-/* A line of text as roff reads it back unchanged. */
-static void write_roff(const char *text, FILE *out)
-{
-    for (; *text; text++) {
-        if (*text == '-' || *text == '\\')
-            fputs(*text == '-' ? "\\-" : "\\e", out);
-        else
-            fputc(*text, out);
-    }
-    fputc('\n', out);
-}
-
-void settings_man(const char *version, FILE *out)
-{
-    fprintf(out,
-            ".TH STRUMD 8 \"\" \"strum %s\"\n.SH NAME\nstrumd \\- %s\n.SH SYNOPSIS\n.B strumd\n"
-            "[\\fB\\-\\-\\fIsetting value\\fR]...\n.SH DESCRIPTION\n",
-            version, purpose);
-    write_roff(rules, out);
-    for (size_t i = 0; i < PROGRAM_FLAGS; i++) {
-        fputs(i ? ".TP\n.B " : ".SH OPTIONS\n.TP\n.B ", out);
-        write_roff(program_flags[i].flag, out);
-        write_roff(program_flags[i].help, out);
-    }
-    fputs(".SH SETTINGS\nEach with its default and its range.\n", out);
-    for (size_t i = 0; i < ROWS; i++) {
-        char flag[64];
-        flag_of(&table[i], flag);
-        fputs(".TP\n.B ", out);
-        write_roff(flag, out);
-        write_range(&table[i], out);
-        fputs(".br\n", out);
-        write_roff(table[i].help, out);
-    }
-    fputs(
-        ".SH SIGNALS\n.TP\n.B SIGTERM, SIGINT\n"
-        "refuse new connections and finish the requests under way; a second one ends at once\n"
-        ".SH EXIT STATUS\n0 when every request was finished, 1 when it could not start or cut\n"
-        "requests short, 2 when the settings have a fault.\n",
-        out);
-}
-
-void settings_print(const settings *s, FILE *out)
-{
-    for (size_t i = 0; i < ROWS; i++) {
-        const void *place = (const char *)s + table[i].offset;
-        fprintf(out, "%s = ", table[i].name);
-        switch (table[i].kind) {
-        case SETTING_TEXT:
-            fprintf(out, "%s\n", *(char *const *)place);
-            break;
-        case SETTING_FLAG:
-            fprintf(out, "%s\n", *(const bool *)place ? "yes" : "no");
-            break;
-        case SETTING_NUMBER:
-            fprintf(out, "%.17g\n", *(const double *)place);
-            break;
-        case SETTING_CHOICE:
-            fprintf(out, "%s\n", log_choices[*(const int64_t *)place]);
-            break;
-        default:
-            fprintf(out, "%" PRId64 "\n", *(const int64_t *)place);
-        }
-    }
 }

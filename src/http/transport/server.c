@@ -5,6 +5,7 @@
 #include <limits.h>
 #include <math.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -244,8 +245,11 @@ static int wait_signal(server *s, int signals, bool accepting, int wait_ms)
         const int beat_ms = heartbeat_wait_ms(&s->heartbeat);
         poll(ready, 2, shorter(shorter(wait_ms, beat_ms), accepting && full ? FULL_MS : -1));
         struct signalfd_siginfo info;
-        if (ready[0].revents && read(signals, &info, sizeof info) == sizeof info)
-            return (int)info.ssi_signo;
+        if (ready[0].revents && read(signals, &info, sizeof info) == sizeof info) {
+            if (info.ssi_signo != SIGHUP)
+                return (int)info.ssi_signo;
+            service_reload(s->service);
+        }
         if (ready[1].revents && !accept_some(s))
             nap(); /* no descriptors or no memory now: later there may be */
         if (!accepting)

@@ -26,7 +26,8 @@ typedef struct server {
 /* Binds and gets all ready. Returns false with a sentence in `fault`; end with server_free in
  * either case. `service` and `handlers` must outlive the server. */
 bool server_start(server *s, service *service, const handlers *handlers, char fault[256]);
-/* Accepts and serves until a signal comes from `signals` (signalfd); then refuses new
+/* Accepts and serves until a signal comes from `signals` (signalfd), SIGHUP aside, which
+ * has it read its tokens again; then refuses new
  * connections and finishes the requests under way, within drain_timeout_s or until a second
  * signal. Returns true if none was cut short. */
 bool server_run(server *s, int signals);
