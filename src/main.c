@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* strumd: settings, start, wait for a signal, drain, stop. */
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/signalfd.h>
@@ -12,20 +13,66 @@
 
 extern char **environ;
 
+/* A reader of the log that is stuck does not keep the process from ending. */
+#define LAST_LINES_MS 1000
+
+/* Without them, the log would be written into the first connection or file that gets their
+ * number. */
+static void open_standard_descriptors(void)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0)
+            _exit(1);
+}
+
+/* Returns a descriptor for those that mean something here. The others that would end the process
+ * without a fault of its own are ignored: a stray one is no reason to stop. SIGQUIT is left as it
+ * is, for a core. */
+static int take_signals(void)
+{
+    static const int ours[] = {SIGTERM, SIGINT, SIGHUP};
+    static const int strays[] = {SIGPIPE, SIGUSR1, SIGUSR2,   SIGALRM, SIGVTALRM,
+                                 SIGPROF, SIGIO,   SIGSTKFLT, SIGPWR,  SIGXFSZ};
+    sigset_t taken;
+    sigemptyset(&taken);
+    for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
+        sigaddset(&taken, ours[i]);
+    /* Before any thread begins: they inherit it, and the signals come to the descriptor only. */
+    pthread_sigmask(SIG_BLOCK, &taken, NULL);
+    for (size_t i = 0; i < sizeof strays / sizeof *strays; i++)
+        signal(strays[i], SIG_IGN);
+    for (int number = SIGRTMIN; number <= SIGRTMAX; number++)
+        signal(number, SIG_IGN);
+    return signalfd(-1, &taken, SFD_CLOEXEC | SFD_NONBLOCK);
+}
+
+/* Opens what the settings name, and lets go of it again. Returns the exit status. */
+static int check(const settings *set)
+{
+    strbuf faults = {0}, notes = {0};
+    char fault[256];
+    service_check(set, &faults, &notes);
+    if (!listen_check(set->listen, set->allow_non_loopback || *set->token_file, fault))
+        strbuf_format(&faults, "%s\n", fault);
+    const bool good = faults.size == 0 && !faults.failed;
+    if (notes.data)
+        fputs(notes.data, stdout);
+    if (good)
+        puts("settings are good");
+    else
+        fputs(faults.data ? faults.data : "out of memory\n", stderr);
+    strbuf_clear(&faults);
+    strbuf_clear(&notes);
+    return good ? 0 : 2;
+}
+
 static int serve(const settings *set)
 {
     api daemon;
     char fault[256];
-    sigset_t ends;
-    sigemptyset(&ends);
-    sigaddset(&ends, SIGTERM);
-    sigaddset(&ends, SIGINT);
-    /* Before any thread begins: they inherit it, and the signals come to the descriptor only.
-     */
-    pthread_sigmask(SIG_BLOCK, &ends, NULL);
-    signal(SIGPIPE, SIG_IGN);
-    const int signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
+    const int signals = take_signals();
     bool clean = false;
+    log_start();
     daemon = (api){.server.at.fd = -1};
     if (!blas_memory_start()) {
         log_say("error", "start",
@@ -42,13 +89,16 @@ static int serve(const settings *set)
                 clean ? "all requests were finished" : "requests were cut short");
         /* Nobody waits for what a worker still solves, and it may take long: the process ends
          * with it instead of waiting for it to be freed. */
-        if (!clean && service_solving(&daemon.service))
+        if (!clean && service_solving(&daemon.service)) {
+            log_flush(LAST_LINES_MS);
             _exit(1);
+        }
     } else {
         log_say("error", "start", "%s", fault);
     }
     api_free(&daemon);
     close(signals);
+    log_flush(LAST_LINES_MS);
     return clean ? 0 : 1;
 }
 
@@ -58,6 +108,7 @@ int main(int argc, char *argv[])
     settings_action action;
     strbuf faults = {0};
     int code = 0;
+    open_standard_descriptors();
     if (!settings_read(&set, argc, argv, environ, &action, &faults)) {
         fputs(faults.data ? faults.data : "out of memory\n", stderr);
         code = 2;
@@ -70,7 +121,7 @@ int main(int argc, char *argv[])
     } else if (action == SETTINGS_PRINT) {
         settings_print(&set, stdout);
     } else if (action == SETTINGS_CHECK) {
-        puts("settings are good");
+        code = check(&set);
     } else {
         code = serve(&set);
     }

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bearer tokens: who may ask, and that tokens are told to nobody."""
+import pathlib
+import signal
+import threading
+
 import pytest
 import requests
 
@@ -90,3 +94,31 @@ def test_files_that_are_no_good(tmp_path, text, word):
         file.write_text(text)
     refused = run("--listen", "127.0.0.1:0", "--token-file", str(file))
     assert refused.returncode == 1 and word in refused.stderr and ONE not in refused.stderr
+
+
+def test_a_hangup_reads_the_tokens_again(start_strumd, token_file):
+    """While others ask with a token that stays."""
+    strumd = start_strumd("--token-file", token_file)
+    file = pathlib.Path(token_file)
+    three, kept = "third-token-0123456789abcdef", []
+    ended = threading.Event()
+
+    def press():
+        while not ended.is_set():
+            kept.append(strumd.post(CHEAP, headers=bearer(TWO)).status_code)
+    client = threading.Thread(target=press)
+    client.start()
+    try:
+        for text, known in ((f"{TWO}\n{three}\n", (False, True)), ("short\n", (False, True)), (f"{ONE}\n{TWO}\n", (True, False))):
+            before = len([line for line in strumd.log if line["event"] == "reload"])
+            file.write_text(text)
+            strumd.process.send_signal(signal.SIGHUP)
+            while len([line for line in strumd.log if line["event"] == "reload"]) == before:
+                assert strumd.process.poll() is None
+            assert tuple(strumd.post(CHEAP, headers=bearer(token)).status_code == 200 for token in (ONE, three)) == known
+    finally:
+        ended.set()
+        client.join()
+    assert set(kept) == {200}
+    assert [line["level"] for line in strumd.log if line["event"] == "reload"] == ["info", "error", "info"]
+    assert "short" not in str(strumd.log)

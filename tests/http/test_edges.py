@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The edges of HTTP/1.1: what libmicrohttpd 0.9.75 would let through is refused, by bytes on a socket."""
+import concurrent.futures
+import resource
+
 import pytest
 
 from conftest import CHEAP, PATH, read_answers, split_answers
@@ -164,3 +167,37 @@ def test_many_clients_that_never_ask(start_strumd):
     finally:
         for connection in idle:
             connection.close()
+
+
+def test_more_connections_than_the_limit(start_strumd):
+    """At the default settings: beyond the limit clients wait; the others are answered, and all are when some have gone.
+    (libmicrohttpd 0.9.75 stops for ever when its own limit is reached.)"""
+    limit = 4096
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    assert hard > limit + 1000, f"{hard} descriptors do not suffice for this test"
+    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
+    strumd = start_strumd()
+    crowd = []
+    try:
+        with strumd.connect() as first:
+            first.sendall(SECOND)
+            assert split_answers(read_answers(first, 1))[0][0] == 200
+            with concurrent.futures.ThreadPoolExecutor(8) as pool:  # faster than they are taken up
+                crowd += pool.map(lambda _: strumd.connect(), range(limit + 800))
+            first.sendall(post(length()))
+            assert split_answers(read_answers(first, 1))[0][0] == 200
+        for _ in range(2):
+            late = crowd[-1]  # waits unaccepted until enough of the others have gone
+            late.sendall(SECOND)
+            while len(crowd) > 500:
+                crowd.pop(0).close()
+            assert split_answers(read_answers(late, 1))[0][0] == 200
+            with concurrent.futures.ThreadPoolExecutor(8) as pool:
+                crowd += pool.map(lambda _: strumd.connect(), range(limit))
+        for connection in crowd:
+            connection.close()
+        assert strumd.get("/livez").status_code == 200
+    finally:
+        for connection in crowd:
+            connection.close()
+        resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))

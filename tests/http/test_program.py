@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The program: its settings, where it listens, its log."""
+import signal
 import socket
 import subprocess
 
@@ -24,6 +25,57 @@ def test_check_config_names_every_fault(tmp_path):
     file.write_text("workers = 2\n")
     good = run("--config", str(file), "--check-config")
     assert (good.returncode, good.stderr) == (0, "")
+
+
+def test_check_config_opens_what_it_names(tmp_path):
+    good_tokens = tmp_path / "tokens"
+    good_tokens.write_text("0123456789abcdef\n")
+    faults = {
+        ("--token-file", str(tmp_path / "none")): "token_file: ", ("--listen", "192.0.2.1:80", "--allow-non-loopback"): "listen: ",
+        ("--listen", "nonsense"): "listen must be ", ("--listen", "0.0.0.0:0"): "listen: ",
+        ("--listen", "no.such.host.invalid:80"): "listen: ", ("--store", "nonsense"): "store must be ",
+        ("--store", "no.such.host.invalid:6379"): "store: ",
+        ("--store", "127.0.0.1:6379", "--store-secret-file", str(tmp_path / "none")): "store_secret_file",
+        ("--store", "127.0.0.1:6379", "--store-password-file", str(tmp_path / "none")): "store_password_file"}
+    for flags, begin in faults.items():
+        bad = run("--check-config", "--listen", "127.0.0.1:0", *flags)
+        assert (bad.returncode, bad.stdout) == (2, ""), flags
+        assert bad.stderr.startswith(begin), (flags, bad.stderr)
+    every = run("--check-config", "--listen", "nonsense", "--store", "nonsense", "--token-file", str(tmp_path / "none"))
+    assert len(every.stderr.splitlines()) == 3
+    good = run("--check-config", "--listen", "0.0.0.0:0", "--token-file", str(good_tokens))
+    assert (good.returncode, good.stdout, good.stderr) == (0, "settings are good\n", "")
+
+
+def test_check_config_while_it_runs(start_strumd, tmp_path):
+    """Its own address is taken, and a store may be away: that is no fault."""
+    strumd = start_strumd()
+    good = run("--check-config", "--listen", strumd.address, "--store", f"unix:{tmp_path}/none")
+    assert good.returncode == 0 and good.stderr == ""
+    assert good.stdout == f"store: unix:{tmp_path}/none does not answer now; strumd starts and solves without it\nsettings are good\n"
+
+
+def test_variables_of_a_cluster_are_not_ours():
+    """What Kubernetes sets for services named strum, strum-store and strum-cache-bytes."""
+    ports = {}
+    for name in ("STRUM", "STRUM_STORE", "STRUM_CACHE_BYTES"):
+        ports |= {f"{name}_SERVICE_HOST": "10.0.0.1", f"{name}_SERVICE_PORT": "80", f"{name}_SERVICE_PORT_HTTP": "80",
+                  f"{name}_PORT": "tcp://10.0.0.1:80", f"{name}_PORT_80_TCP": "tcp://10.0.0.1:80",
+                  f"{name}_PORT_80_TCP_PROTO": "tcp", f"{name}_PORT_80_TCP_ADDR": "10.0.0.1"}
+    assert run("--print-config", environment=ports).stderr == ""
+    assert run("--print-config", environment={"STRUM_STORE_SERVICES": "1"}).returncode == 2
+    assert run("--print-config", environment={"STRUM_REPORT": "1"}).returncode == 2
+
+
+def test_signals_that_mean_nothing_do_not_end_it(start_strumd):
+    strumd = start_strumd()
+    named = [signal.SIGPIPE, signal.SIGUSR1, signal.SIGUSR2, signal.SIGALRM, signal.SIGVTALRM, signal.SIGPROF, signal.SIGIO,
+             signal.SIGPWR, signal.SIGXFSZ, signal.SIGHUP, signal.SIGRTMIN, signal.SIGRTMIN + 1, signal.SIGRTMAX]
+    for number in named:
+        strumd.process.send_signal(number)
+        assert strumd.get("/livez").status_code == 200, number
+    assert strumd.end() == 0
+    strumd.wait_log("reload")
 
 
 def test_faults_keep_it_from_starting():

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <openssl/crypto.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,9 +16,15 @@
 /* Each request is compared with all of them. */
 #define TOKENS_MAX 1024
 
-struct access_list {
+typedef struct tokens {
     size_t count;
     cache_key digests[TOKENS_MAX];
+} tokens;
+
+struct access_list {
+    pthread_rwlock_t lock; /* of `now` */
+    tokens *now;
+    char path[];
 };
 
 static bool digest_of(const char *token, cache_key *digest)
@@ -25,7 +32,7 @@ static bool digest_of(const char *token, cache_key *digest)
     return key_of_parts(&(key_part){token, strlen(token)}, 1, digest);
 }
 
-static bool add_line(access_list *a, char *line, const char **why)
+static bool add_line(tokens *a, char *line, const char **why)
 {
     line[strcspn(line, " \t\r\n")] = '\0';
     if (*line == '\0' || *line == '#')
@@ -38,9 +45,9 @@ static bool add_line(access_list *a, char *line, const char **why)
     return *why == NULL;
 }
 
-access_list *access_read(const char *path, char fault[256])
+static tokens *read_tokens(const char *path, char fault[256])
 {
-    access_list *a = calloc(1, sizeof *a);
+    tokens *a = calloc(1, sizeof *a);
     FILE *file = fopen(path, "re");
     const char *why = !a ? "out of memory" : !file ? strerror(errno) : NULL;
     char *line = NULL;
@@ -63,12 +70,57 @@ access_list *access_read(const char *path, char fault[256])
     return NULL;
 }
 
+access_list *access_read(const char *path, char fault[256])
+{
+    const size_t size = strlen(path) + 1;
+    tokens *now = read_tokens(path, fault);
+    access_list *a = now ? malloc(sizeof *a + size) : NULL;
+    if (!a) {
+        if (now)
+            snprintf(fault, 256, "token_file: out of memory");
+        free(now);
+        return NULL;
+    }
+    memcpy(a->path, path, size);
+    a->now = now;
+    pthread_rwlock_init(&a->lock, NULL);
+    return a;
+}
+
+bool access_reload(access_list *a, char fault[256])
+{
+    tokens *now = read_tokens(a->path, fault);
+    if (!now)
+        return false;
+    pthread_rwlock_wrlock(&a->lock);
+    tokens *before = a->now;
+    a->now = now;
+    pthread_rwlock_unlock(&a->lock);
+    free(before);
+    return true;
+}
+
 void access_free(access_list *a)
 {
+    if (!a)
+        return;
+    pthread_rwlock_destroy(&a->lock);
+    free(a->now);
     free(a);
 }
 
-bool access_allows(const access_list *a, const char *authorization)
+/* Compares with all tokens, each completely: the time reveals nothing about a guess. */
+static bool is_known(access_list *a, const cache_key *given)
+{
+    bool found = false;
+    pthread_rwlock_rdlock(&a->lock);
+    for (size_t i = 0; i < a->now->count; i++)
+        found |= CRYPTO_memcmp(&a->now->digests[i], given, sizeof *given) == 0;
+    pthread_rwlock_unlock(&a->lock);
+    return found;
+}
+
+bool access_allows(access_list *a, const char *authorization)
 {
     if (!a)
         return true;
@@ -76,11 +128,5 @@ bool access_allows(const access_list *a, const char *authorization)
         return false;
     cache_key given;
     const char *token = authorization + 7 + strspn(authorization + 7, " ");
-    if (!digest_of(token, &given))
-        return false;
-    /* Compares with all tokens, each completely: the time reveals nothing about a guess. */
-    bool found = false;
-    for (size_t i = 0; i < a->count; i++)
-        found |= CRYPTO_memcmp(&a->digests[i], &given, sizeof given) == 0;
-    return found;
+    return digest_of(token, &given) && is_known(a, &given);
 }

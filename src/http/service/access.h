@@ -10,9 +10,12 @@ typedef struct access_list access_list;
 
 /* Skips lines that are empty or begin with #. Returns NULL with a sentence in `fault`. */
 access_list *access_read(const char *path, char fault[256]);
+/* Reads the file again. Returns false with a sentence in `fault`; the tokens read before then still
+ * hold. While other threads ask access_allows. */
+bool access_reload(access_list *a, char fault[256]);
 void access_free(access_list *a);
 /* Decides by the value of Authorization (NULL: there was none). Without a list (NULL `a`) every
  * client may ask. */
-bool access_allows(const access_list *a, const char *authorization);
+bool access_allows(access_list *a, const char *authorization);
 
 #endif

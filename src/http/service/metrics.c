@@ -9,6 +9,7 @@
 #include <strum/version.h>
 
 #include "http/service/clock.h"
+#include "http/service/log.h"
 
 /* The statuses this daemon answers with; the last row counts any other. */
 static const int statuses[] = {200, 204, 304, 400, 401, 404, 405,
@@ -209,6 +210,9 @@ void metrics_write(const metrics *m, const metrics_snapshot *now, strbuf *out)
     value(out, "queue_refused_total", "counter", "Requests refused for a full queue.",
           w.refused);
     value(out, "requests_busy", "gauge", "Requests under way.", now->busy);
+    value(out, "log_lines_dropped_total", "counter",
+          "Lines of the log dropped, since its reader did not take them in time.",
+          log_dropped());
     strbuf_format(out,
                   "# HELP strum_build_info The version.\n# TYPE strum_build_info gauge\n"
                   "strum_build_info{version=\"%s\"} 1\n",

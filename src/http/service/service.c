@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "http/service/service.h"
 
+#include <netdb.h> /* getaddrinfo */
 #include <stdio.h>
 #include <string.h>
 #include <sys/random.h>
+#include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -22,7 +24,15 @@ static void note_store(bool away, const char *why)
         log_say("info", "store", "the shared store answers");
 }
 
-static store *open_store(const settings *set, int workers, char fault[256])
+/* Says nothing: service_check says it. */
+static void keep_quiet(bool away, const char *why)
+{
+    (void)away;
+    (void)why;
+}
+
+static store *open_store(const settings *set, int workers,
+                         void (*turned)(bool away, const char *why), char fault[256])
 {
     const bool local = strncmp(set->store, "unix:/", 6) == 0;
     const char *path = local ? set->store + 5 : "";
@@ -42,7 +52,7 @@ static store *open_store(const settings *set, int workers, char fault[256])
                                       .wait_ms = (int)set->store_timeout_ms,
                                       .expiry_s = set->store_expiry_s,
                                       .connections = workers,
-                                      .turned = note_store},
+                                      .turned = turned},
                      fault);
 }
 
@@ -56,7 +66,7 @@ bool service_start(service *s, const settings *set, size_t routes,
         set->queue_depth ? (size_t)set->queue_depth : QUEUE_PER_WORKER * (size_t)workers;
     if (*set->token_file && !(s->access = access_read(set->token_file, fault)))
         return false;
-    if (*set->store && !(s->store = open_store(set, workers, fault)))
+    if (*set->store && !(s->store = open_store(set, workers, note_store, fault)))
         return false;
     if (getrandom(&s->id_prefix, sizeof s->id_prefix, GRND_NONBLOCK) < 0)
         s->id_prefix = (uint32_t)clock_us();
@@ -65,6 +75,66 @@ bool service_start(service *s, const settings *set, size_t routes,
            (s->cache = cache_new((size_t)set->cache_bytes)) &&
            (s->thread_pool = thread_pool_new(&(thread_pool_options){
                 .workers = workers, .depth = depth, .cheap_us = set->cheap_us}));
+}
+
+static void add_fault(strbuf *faults, const char *fault)
+{
+    strbuf_format(faults, "%s\n", fault);
+}
+
+/* Whether the store's name can be resolved. */
+static bool resolves(const char *address, char fault[256])
+{
+    char host[256], port[16];
+    struct addrinfo hints = {.ai_socktype = SOCK_STREAM}, *found = NULL;
+    if (!address_split(address, host, port))
+        return true; /* the path of a local socket */
+    const int error = getaddrinfo(host, port, &hints, &found);
+    if (error)
+        snprintf(fault, 256, "store: %.100s: %s", host, gai_strerror(error));
+    else
+        freeaddrinfo(found);
+    return error == 0;
+}
+
+static void check_store(const settings *set, strbuf *faults, strbuf *notes)
+{
+    char fault[256];
+    static const cache_key none = {{0}};
+    store *s = open_store(set, 1, keep_quiet, fault);
+    if (!s || !resolves(set->store, fault)) {
+        add_fault(faults, fault);
+    } else {
+        entry_unref(store_find(s, &none));
+        if (store_count(s).errors)
+            strbuf_format(notes,
+                          "store: %.100s does not answer now; strumd starts and solves "
+                          "without it\n",
+                          set->store);
+    }
+    store_free(s);
+}
+
+void service_check(const settings *set, strbuf *faults, strbuf *notes)
+{
+    char fault[256];
+    access_list *access = *set->token_file ? access_read(set->token_file, fault) : NULL;
+    if (*set->token_file && !access)
+        add_fault(faults, fault);
+    access_free(access);
+    if (*set->store)
+        check_store(set, faults, notes);
+}
+
+void service_reload(service *s)
+{
+    char fault[256];
+    if (!s->access)
+        log_say("info", "reload", "no token_file is set: nothing to read again");
+    else if (access_reload(s->access, fault))
+        log_say("info", "reload", "the tokens were read again");
+    else
+        log_say("error", "reload", "%s; the tokens read before still hold", fault);
 }
 
 bool service_solving(const service *s)

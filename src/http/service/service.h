@@ -37,6 +37,11 @@ typedef struct service {
  * either case. */
 bool service_start(service *s, const settings *settings, size_t routes,
                    const char *(*path)(size_t index), char fault[256]);
+/* Tries the files and addresses that service_start would need: a line in `faults` for each that would
+ * keep it from starting, one in `notes` for each that would only be missed. */
+void service_check(const settings *settings, strbuf *faults, strbuf *notes);
+/* Reads again what may change while requests are served: the tokens. */
+void service_reload(service *s);
 /* Finishes the work in the queue first. */
 void service_free(service *s);
 /* Whether a worker still solves: some of the mechanics cannot be interrupted. */

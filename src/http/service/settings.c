@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "http/service/settings_table.h"
+#include "http/service/settings.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -8,9 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "http/service/settings_table.h"
 #include "schema/schema.h"
 
-const char *const settings_log_choices[] = {"none", "errors", "refusals", "all", NULL};
+const char *const log_choices[] = {"none", "errors", "refusals", "all", NULL};
 
 #define AT(member) offsetof(settings, member)
 const setting settings_table[] = {
@@ -21,7 +22,9 @@ const setting settings_table[] = {
     {"allow_non_loopback", SETTING_FLAG, AT(allow_non_loopback), 0, 0, "no",
      "accept a listen address that other machines can reach even without token_file"},
     {"token_file", SETTING_TEXT, AT(token_file), 0, 0, "",
-     "file of bearer tokens, one a line; every request except probes must carry one of them"},
+     "file of bearer tokens, one a line; every request except probes must carry one of them; "
+     "read "
+     "again at SIGHUP"},
     {"event_threads", SETTING_COUNT, AT(event_threads), 1, 64, "1",
      "threads that read requests and send answers"},
     {"workers", SETTING_COUNT, AT(workers), 0, 1024, "0",
@@ -130,8 +133,8 @@ static void fault_of(const setting *row, const char *value, const char *source, 
         break;
     case SETTING_CHOICE:
         strbuf_format(faults, "%s: %s must be one of", source, row->name);
-        for (size_t i = 0; settings_log_choices[i]; i++)
-            strbuf_format(faults, "%s %s", i ? "," : "", settings_log_choices[i]);
+        for (size_t i = 0; log_choices[i]; i++)
+            strbuf_format(faults, "%s %s", i ? "," : "", log_choices[i]);
         strbuf_format(faults, ", not \"%s\"\n", value);
         break;
     default:
@@ -164,8 +167,8 @@ static void set(settings *s, const setting *row, const char *value, const char *
         break;
     case SETTING_CHOICE:
         good = false;
-        for (size_t i = 0; settings_log_choices[i]; i++) {
-            if (strcmp(value, settings_log_choices[i]) == 0) {
+        for (size_t i = 0; log_choices[i]; i++) {
+            if (strcmp(value, log_choices[i]) == 0) {
                 *(int64_t *)place = (int64_t)i;
                 good = true;
             }
@@ -194,15 +197,23 @@ static void plain_name(const char *name, size_t size, char plain[64])
     plain[i] = '\0';
 }
 
+static const setting *known(const char *plain)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (strcmp(settings_table[i].name, plain) == 0)
+            return &settings_table[i];
+    return NULL;
+}
+
 static const setting *find(const char *plain, const char *source, const char *given,
                            strbuf *faults)
 {
+    const setting *row = known(plain);
+    if (row)
+        return row;
     nearest near = {.wanted = plain};
-    for (size_t i = 0; i < ROWS; i++) {
-        if (strcmp(settings_table[i].name, plain) == 0)
-            return &settings_table[i];
+    for (size_t i = 0; i < ROWS; i++)
         nearest_try(&near, settings_table[i].name);
-    }
     strbuf_format(faults, "%s: unknown setting \"%s\"", source, given);
     if (near.name)
         strbuf_format(faults, "; did you mean %s?", near.name);
@@ -258,6 +269,25 @@ static void read_file(settings *s, const char *path, strbuf *faults)
 
 #define ENVIRONMENT_PREFIX "STRUM_"
 
+/* Whether `plain` has the word `word`, at its beginning or after "_", and at its end or before "_".
+ */
+static bool has_word(const char *plain, const char *word)
+{
+    const size_t size = strlen(word);
+    for (const char *at = strstr(plain, word); at; at = strstr(at + 1, word))
+        if ((at == plain || at[-1] == '_') && (at[size] == '\0' || at[size] == '_'))
+            return true;
+    return false;
+}
+
+/* For each service of its namespace Kubernetes sets NAME_SERVICE_HOST, NAME_SERVICE_PORT...,
+ * NAME_PORT and NAME_PORT_80_TCP...: those named strum or strum-store get our prefix. */
+static bool is_of_cluster(const char *plain)
+{
+    return has_word(plain, "service_host") || has_word(plain, "service_port") ||
+           has_word(plain, "port");
+}
+
 static void read_environment(settings *s, char *const environment[], strbuf *faults)
 {
     const size_t prefix = sizeof ENVIRONMENT_PREFIX - 1;
@@ -268,9 +298,7 @@ static void read_environment(settings *s, char *const environment[], strbuf *fau
         char plain[64], name[96];
         snprintf(name, sizeof name, "%.*s", (int)(equals - *variable), *variable);
         plain_name(name + prefix, strlen(name + prefix), plain);
-        /* Kubernetes sets STRUM_PORT... and STRUM_SERVICE_... for a service named strum. */
-        if (strncmp(plain, "port", 4) == 0 || strncmp(plain, "service_", 8) == 0 ||
-            strcmp(plain, "config") == 0)
+        if (strcmp(plain, "config") == 0 || (!known(plain) && is_of_cluster(plain)))
             continue;
         const setting *row = find(plain, "environment", name, faults);
         if (row)

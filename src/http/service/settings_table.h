@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rows of settings: what settings.c reads and settings_text.c prints. */
+/* The table behind the settings; private to settings*.c. */
 #ifndef HTTP_SERVICE_SETTINGS_TABLE_H
 #define HTTP_SERVICE_SETTINGS_TABLE_H
 
-#include "http/service/settings.h"
+#include <stddef.h>
 
 typedef enum setting_kind {
     SETTING_TEXT,
@@ -24,7 +24,7 @@ typedef struct setting {
 
 extern const setting settings_table[];
 extern const size_t settings_rows;
-/* Ends with NULL. */
-extern const char *const settings_log_choices[];
+/* Of log_requests, in the order of enum log_requests; ended by NULL. */
+extern const char *const log_choices[];
 
 #endif

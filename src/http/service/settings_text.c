@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Settings as text: --help, the manual page, --print-config. */
+/* The settings as text: for --help, as a manual page, as a file. */
 #include <inttypes.h>
 #include <string.h>
 
+#include "http/service/settings.h"
 #include "http/service/settings_table.h"
 
 static const struct {
     const char *flag, *help;
 } program_flags[] = {
     {"--config FILE", "read settings from a file (also STRUM_CONFIG); # begins a comment line"},
-    {"--check-config", "name every fault in the settings and exit"},
+    {"--check-config",
+     "name every fault in the settings, in the files and in the addresses they name, and exit"},
     {"--print-config", "print the settings in force, as a file, and exit"},
     {"--version", "print the version and exit"},
     {"--help", "print all settings and exit"},
@@ -91,6 +93,7 @@ void settings_man(const char *version, FILE *out)
     fputs(
         ".SH SIGNALS\n.TP\n.B SIGTERM, SIGINT\n"
         "refuse new connections and finish the requests under way; a second one ends at once\n"
+        ".TP\n.B SIGHUP\nread the token file again; one with a fault changes nothing\n"
         ".SH EXIT STATUS\n0 when every request was finished, 1 when it could not start or cut\n"
         "requests short, 2 when the settings have a fault.\n",
         out);
@@ -112,7 +115,7 @@ void settings_print(const settings *s, FILE *out)
             fprintf(out, "%.17g\n", *(const double *)place);
             break;
         case SETTING_CHOICE:
-            fprintf(out, "%s\n", settings_log_choices[*(const int64_t *)place]);
+            fprintf(out, "%s\n", log_choices[*(const int64_t *)place]);
             break;
         default:
             fprintf(out, "%" PRId64 "\n", *(const int64_t *)place);

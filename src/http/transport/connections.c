@@ -16,7 +16,6 @@ struct connections {
     pthread_t reaper;
     bool ending;
     connection *first;
-    atomic_size_t count, opened;
     service *service;
     const handlers *handlers;
 };
@@ -124,8 +123,6 @@ connection *connection_open(connections *all, struct MHD_Connection *mhd)
     if (all->first)
         all->first->previous = p;
     all->first = p;
-    all->count++;
-    all->opened++;
     pthread_mutex_unlock(&all->lock);
     return p;
 }
@@ -137,7 +134,6 @@ void connection_close(connection *p)
     *(p->previous ? &p->previous->next : &all->first) = p->next;
     if (p->next)
         p->next->previous = p->previous;
-    all->count--;
     pthread_mutex_unlock(&all->lock);
     all->handlers->close(p->request);
     free(p);
@@ -165,16 +161,6 @@ void connection_end_if_stopping(connection *p)
 }
 
 /* ---- all of them ---- */
-
-size_t connections_count(connections *all)
-{
-    return all->count;
-}
-
-size_t connections_opened(connections *all)
-{
-    return all->opened;
-}
 
 size_t connections_busy(connections *all)
 {

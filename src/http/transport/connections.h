@@ -68,9 +68,7 @@ void connection_enter(connection *p, connection_phase phase, double seconds);
  * this sees that the daemon stops, or connections_end_waiting sees the connection. */
 void connection_end_if_stopping(connection *p);
 
-/* The number of connections open, of those ever opened, and of those with a request under way. */
-size_t connections_count(connections *all);
-size_t connections_opened(connections *all);
+/* The number of connections with a request under way. */
 size_t connections_busy(connections *all);
 /* Closes connections that have been idle for `seconds`. */
 void connections_end_idle(connections *all, double seconds);

@@ -40,7 +40,7 @@ static void name_of(int fd, listen_at *at)
              host, port);
 }
 
-static int bind_first(const struct addrinfo *address)
+static int bind_to(const struct addrinfo *address)
 {
     const int fd = socket(address->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (fd < 0)
@@ -50,7 +50,7 @@ static int bind_first(const struct addrinfo *address)
     setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     if (address->ai_family == AF_INET6)
         setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
-    if (bind(fd, address->ai_addr, address->ai_addrlen) == 0 && listen(fd, LISTEN_BACKLOG) == 0)
+    if (bind(fd, address->ai_addr, address->ai_addrlen) == 0)
         return fd;
     const int why = errno;
     close(fd);
@@ -97,37 +97,70 @@ static bool take_passed(long number, bool allow_any, listen_at *at, char fault[2
     return at->fd >= 0;
 }
 
-bool listen_open(const char *where, bool allow_any, listen_at *at, char fault[256])
+/* Returns the addresses of `where`, for freeaddrinfo, or NULL with a sentence in `fault`. */
+static struct addrinfo *resolve(const char *where, bool allow_any, char fault[256])
 {
     char host[256], port[16];
-    long passed;
-    *at = (listen_at){.fd = -1};
-    if (is_passed(&passed))
-        return take_passed(passed, allow_any, at, fault);
     if (!address_split(where, host, port)) {
         snprintf(fault, 256, "listen must be address:port or [address]:port, not \"%.100s\"",
                  where);
-        return false;
+        return NULL;
     }
     struct addrinfo hints = {.ai_socktype = SOCK_STREAM, .ai_flags = AI_PASSIVE};
     struct addrinfo *found = NULL;
     const int error = getaddrinfo(host, port, &hints, &found);
     if (error) {
         snprintf(fault, 256, "listen: %.100s: %s", host, gai_strerror(error));
-        return false;
+        return NULL;
     }
-    if (!allow_any && !is_loopback(found->ai_addr)) {
-        snprintf(fault, 256,
-                 "listen: %.100s can be reached from other machines; set token_file, or "
-                 "allow_non_loopback if anybody may ask",
-                 where);
-    } else {
-        at->fd = bind_first(found);
-        if (at->fd < 0)
-            snprintf(fault, 256, "listen: %.100s: %s", where, strerror(errno));
-        else
-            name_of(at->fd, at);
-    }
+    if (allow_any || is_loopback(found->ai_addr))
+        return found;
+    snprintf(fault, 256,
+             "listen: %.100s can be reached from other machines; set token_file, or "
+             "allow_non_loopback if anybody may ask",
+             where);
     freeaddrinfo(found);
-    return at->fd >= 0;
+    return NULL;
+}
+
+static void note_error(const char *where, char fault[256])
+{
+    snprintf(fault, 256, "listen: %.100s: %s", where, strerror(errno));
+}
+
+bool listen_open(const char *where, bool allow_any, listen_at *at, char fault[256])
+{
+    long passed;
+    *at = (listen_at){.fd = -1};
+    if (is_passed(&passed))
+        return take_passed(passed, allow_any, at, fault);
+    struct addrinfo *found = resolve(where, allow_any, fault);
+    if (!found)
+        return false;
+    at->fd = bind_to(found);
+    freeaddrinfo(found);
+    if (at->fd >= 0 && listen(at->fd, LISTEN_BACKLOG) == 0) {
+        name_of(at->fd, at);
+        return true;
+    }
+    note_error(where, fault);
+    if (at->fd >= 0)
+        close(at->fd);
+    at->fd = -1;
+    return false;
+}
+
+bool listen_check(const char *where, bool allow_any, char fault[256])
+{
+    struct addrinfo *found = resolve(where, allow_any, fault);
+    if (!found)
+        return false;
+    const int fd = bind_to(found);
+    const bool good = fd >= 0 || errno == EADDRINUSE;
+    if (!good)
+        note_error(where, fault);
+    freeaddrinfo(found);
+    if (fd >= 0)
+        close(fd);
+    return good;
 }

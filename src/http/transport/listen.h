@@ -19,5 +19,7 @@ typedef struct listen_at {
  * address that other machines can reach is refused unless `allow_any`. Returns false with
  * a sentence in `fault`. */
 bool listen_open(const char *where, bool allow_any, listen_at *at, char fault[256]);
+/* Tries whether listen_open could bind there, now or when it is free: a daemon may run. */
+bool listen_check(const char *where, bool allow_any, char fault[256]);
 
 #endif

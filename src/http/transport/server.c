@@ -2,8 +2,10 @@
 #include "http/transport/server.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -13,6 +15,7 @@
 
 #include "http/service/clock.h"
 #include "http/service/log.h"
+#include "http/service/notify.h"
 #include "json/hex.h"
 
 /* ---- what libmicrohttpd calls ---- */
@@ -20,12 +23,16 @@
 static void on_connection(void *cls, struct MHD_Connection *mhd, void **context,
                           enum MHD_ConnectionNotificationCode code)
 {
+    server *s = cls;
     if (code == MHD_CONNECTION_NOTIFY_STARTED) {
-        *context = connection_open(((server *)cls)->connections, mhd);
-    } else if (*context) {
-        connection_close(*context);
-        *context = NULL;
+        s->taken_up++;
+        *context = connection_open(s->connections, mhd);
+        return;
     }
+    if (*context)
+        connection_close(*context);
+    *context = NULL;
+    s->ended++;
 }
 
 static enum MHD_Result on_request(void *cls, struct MHD_Connection *mhd, const char *url,
@@ -123,8 +130,9 @@ static struct MHD_Daemon *daemon_start(server *s)
         {MHD_OPTION_NOTIFY_CONNECTION, (intptr_t)on_connection, s},
         {MHD_OPTION_NOTIFY_COMPLETED, (intptr_t)on_completed, s},
         {MHD_OPTION_UNESCAPE_CALLBACK, (intptr_t)on_unescape, s},
-        /* We stop accepting at the limit; the last burst may exceed it and is not refused. */
-        {MHD_OPTION_CONNECTION_LIMIT, (intptr_t)set->connections + ACCEPT_BURST, NULL},
+        /* Out of reach: at its own limit, libmicrohttpd 0.9.75 leaves a mutex locked, and its event
+         * thread waits for it for ever. accept_some keeps the bound. */
+        {MHD_OPTION_CONNECTION_LIMIT, INT_MAX, NULL},
         {MHD_OPTION_CONNECTION_MEMORY_LIMIT, (intptr_t)set->connection_memory_bytes, NULL},
         /* libmicrohttpd takes whole seconds; the reaper is exact. */
         {MHD_OPTION_CONNECTION_TIMEOUT, (intptr_t)ceil(set->idle_timeout_s), NULL},
@@ -156,11 +164,47 @@ bool server_start(server *s, service *with, const handlers *h, char fault[256])
 
 /* ---- accept ---- */
 
+/* A connection accepted is taken up by an event thread within this time, or was lost. */
+#define LOST_MS 10000
+
+/* Connections handed over that no event thread has taken up yet. */
+static size_t count_pending(const server *s)
+{
+    const size_t known = s->taken_up + s->lost;
+    return s->accepted > known ? s->accepted - known : 0;
+}
+
+/* Connections accepted and not yet ended. */
+static size_t count_open(const server *s)
+{
+    const size_t ended = s->ended; /* first: an end seen has its beginning */
+    return s->taken_up - ended + count_pending(s);
+}
+
+/* Without memory libmicrohttpd closes a connection and tells nobody: it must not be counted for
+ * ever. */
+static void forget_lost(server *s)
+{
+    const size_t pending = count_pending(s);
+    if (!pending)
+        s->waits_since_ms = 0;
+    else if (!s->waits_since_ms)
+        s->waits_since_ms = clock_ms();
+    else if (clock_ms() > s->waits_since_ms + LOST_MS)
+        s->lost += pending;
+}
+
+static bool is_full(server *s)
+{
+    forget_lost(s);
+    return count_open(s) >= (size_t)s->service->settings->connections;
+}
+
 /* We accept, not libmicrohttpd: its MHD_quiesce_daemon races with its own event threads for the
  * listening socket's place in their epoll sets, and the loser aborts the process. */
 static bool accept_some(server *s)
 {
-    for (int i = 0; i < ACCEPT_BURST; i++) {
+    for (int i = 0; i < ACCEPT_BURST && !is_full(s); i++) {
         struct sockaddr_storage address;
         socklen_t size = sizeof address;
         const int fd =
@@ -180,24 +224,37 @@ static void nap(void)
     nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
 }
 
+/* The shorter of two times for poll, of which -1 is endless. */
+static int shorter(int a, int b)
+{
+    return a < 0 || (b >= 0 && b < a) ? b : a;
+}
+
+/* How often the end of a connection is looked for while there are too many. */
+#define FULL_MS 10
+
 /* Returns a signal that comes within `wait_ms` (-1: no limit), or 0. With `accepting`, accepts
  * new connections meanwhile. */
 static int wait_signal(server *s, int signals, bool accepting, int wait_ms)
 {
     for (;;) {
         /* Beyond the limit connections wait in the backlog. */
-        const bool full =
-            connections_count(s->connections) >= (size_t)s->service->settings->connections;
+        const bool full = is_full(s);
         struct pollfd ready[] = {{.fd = signals, .events = POLLIN},
                                  {.fd = accepting && !full ? s->at.fd : -1, .events = POLLIN}};
-        poll(ready, 2, accepting && full ? 10 : wait_ms);
+        const int beat_ms = heartbeat_wait_ms(&s->heartbeat);
+        poll(ready, 2, shorter(shorter(wait_ms, beat_ms), accepting && full ? FULL_MS : -1));
         struct signalfd_siginfo info;
-        if (ready[0].revents && read(signals, &info, sizeof info) == sizeof info)
-            return (int)info.ssi_signo;
+        if (ready[0].revents && read(signals, &info, sizeof info) == sizeof info) {
+            if (info.ssi_signo != SIGHUP)
+                return (int)info.ssi_signo;
+            service_reload(s->service);
+        }
         if (ready[1].revents && !accept_some(s))
             nap(); /* no descriptors or no memory now: later there may be */
         if (!accepting)
             return 0;
+        s->accepted += heartbeat_tick(&s->heartbeat, s->daemon);
     }
 }
 
@@ -212,19 +269,19 @@ static int wait_signal(server *s, int signals, bool accepting, int wait_ms)
 
 static bool all_gone(server *s, double begin)
 {
-    const bool taken_up = connections_opened(s->connections) >= s->accepted ||
-                          clock_us() > begin + TAKE_UP_S * 1e6;
-    return taken_up && connections_count(s->connections) == 0;
+    const bool taken_up = count_pending(s) == 0 || clock_us() > begin + TAKE_UP_S * 1e6;
+    return taken_up && s->taken_up == s->ended;
 }
 
 static bool drain(server *s, int signals, int got)
 {
     const double begin = clock_us(), end = begin + s->service->settings->drain_timeout_s * 1e6;
     atomic_store(&s->service->draining, true);
+    heartbeat_stop(&s->heartbeat);
+    notify_manager("STOPPING=1");
     /* Clients already connected are served. Clients that connect from now on are refused, or,
      * where the socket is shared, wait in it for the next process. */
-    while (!s->at.inherited &&
-           connections_count(s->connections) < (size_t)s->service->settings->connections) {
+    while (!s->at.inherited && !is_full(s)) {
         struct pollfd ready = {.fd = s->at.fd, .events = POLLIN};
         if (poll(&ready, 1, 0) <= 0 || !accept_some(s))
             break;
@@ -239,6 +296,7 @@ static bool drain(server *s, int signals, int got)
             clean = connections_busy(s->connections) == 0;
             break;
         }
+        heartbeat_draining(&s->heartbeat);
         connections_end_idle(s->connections, IDLE_GRACE_S);
     }
     /* MHD_stop_daemon aborts if a connection is suspended: none may be left, and none may come. */
@@ -254,11 +312,14 @@ static bool drain(server *s, int signals, int got)
 
 bool server_run(server *s, int signals)
 {
+    heartbeat_start(&s->heartbeat, s->service->settings->event_threads);
+    notify_manager("READY=1");
     return drain(s, signals, wait_signal(s, signals, true, -1));
 }
 
 void server_free(server *s)
 {
+    heartbeat_stop(&s->heartbeat);
     if (s->daemon)
         MHD_stop_daemon(s->daemon);
     connections_free(s->connections);
