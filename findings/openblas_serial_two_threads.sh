@@ -7,7 +7,8 @@
 # What happens: libopenblas0-serial is built without locks (USE_LOCKING). The flag that marks a work buffer as taken is read, and set only
 #   afterwards: two threads can take the same buffer and pack their matrices over each other's. The products are wrong by whole terms, not
 #   by rounding, in up to 7 of a hundred calls here (in other runs in none), and no call reports anything. The matrices are the threads'
-#   own, nothing is shared. The threaded flavour (libopenblas0-pthread, told to use one thread) and the reference BLAS make no mistake in as many calls.
+#   own, nothing is shared. The threaded flavour (libopenblas0-pthread, told to use one thread) and the reference BLAS make no mistake in as
+#   many calls.
 # What follows: a test of a few thousand products may well pass, and whatever multiplies through BLAS is concerned.
 # Seen with libopenblas0-serial 0.3.21+ds-4 (Debian 12) on two cores, on 2026-11-28.
 #
