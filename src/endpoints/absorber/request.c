@@ -169,5 +169,21 @@ void absorber_prepare(void *data, schema_arena *arena, problem *p)
 double absorber_cost_us(const void *data)
 {
     const absorber_request *r = data;
-    return 300.0 * (double)r->max_evaluations;
+    const double variables = (double)r->variables.count;
+    const chain_variables lowest = {r->names, r->low, r->variables.count};
+    strum_taut *chain;
+    double work = 1100 * (double)r->sweep.points + 1.7 * (double)r->max_evaluations;
+    if (r->modes.count > 0) { /* each is followed from zero damping, past those below it */
+        double highest = 0;
+        for (size_t i = 0; i < r->modes.count; i++)
+            highest = fmax(highest, (double)r->mode_numbers[i]);
+        const double modes = (double)r->modes.count;
+        work += 19000 + 2100 * highest + modes * variables * (520 * variables + 780 * modes);
+    } else if (chain_make(&r->in, &lowest, &chain, NULL) == STRUM_OK) {
+        const double modes = (double)strum_taut_count(chain, r->band[1]) -
+                             (double)strum_taut_count(chain, r->band[0]);
+        strum_taut_free(&chain);
+        work += modes * variables * (520 * variables + 780 * modes);
+    }
+    return fmin(work, 120.0 * (double)r->max_evaluations);
 }

@@ -93,14 +93,19 @@ static double plane_cost_us(const request *r, strum_plane plane)
     const strum_cable *cable = &r->in.cable;
     const int modes = (int)r->modes;
     const double series = r->method == METHOD_SERIES
-                              ? strum_series_work(cable, plane, modes, true)
-                          : r->verify ? verification_series_work(&r->in, plane, modes)
+                              ? 1.5 * strum_series_work(cable, plane, modes, true)
+                          : r->verify ? 0.25 * verification_series_work(&r->in, plane, modes)
                                       : 0;
     const double galerkin = r->method == METHOD_GALERKIN || r->verify
                                 ? strum_modes_work(&(strum_modes_params){
                                       *cable, plane, modes, r->shape_points > 0 || r->verify})
                                 : 0;
-    return series + galerkin * (r->verify ? 2 : 1);
+    /* Unequal damping makes a quadratic pencil; the second method has a larger one. */
+    const bool pencil = plane == STRUM_IN_PLANE && r->in.eta_tangential != r->in.eta_normal;
+    const double share = 0.8 + (pencil ? 1.4 : 0) + (r->verify ? 1.5 : 0);
+    return series + share * galerkin + (r->verify ? 200 * modes : 0) +
+           (cable->kappa_t > 0 ? 50 + 0.2 * galerkin : 0) +
+           (double)(modes * r->shape_points) * 4;
 }
 
 static double cost_us(const void *data)
@@ -108,11 +113,11 @@ static double cost_us(const void *data)
     const request *r = data;
     if (r->method == METHOD_RAYLEIGH)
         return 10;
-    double work = 0;
+    double work = r->compare ? 120 : 60;
     for (int plane = 0; plane < 2; plane++)
         if (asks(r, (strum_plane)plane))
             work += plane_cost_us(r, (strum_plane)plane);
-    return work + 0.2 * (double)r->shape_points * (double)r->modes;
+    return work;
 }
 
 static const char *symmetry_text(strum_symmetry symmetry)

@@ -190,10 +190,42 @@ void forced_prepare(void *data, schema_arena *arena, problem *p)
     r->highest *= multiple;
 }
 
+/* About how many modes of a plane lie below a frequency w in sqrt(g/a): the phase of waves across
+ * the cable, and of those along an elastic one, over pi. With c = cosh chi, in units of a,
+ *     wave number across = w sqrt(m_n (1 + kappa_n c) c),
+ *     wave number along  = w sqrt(m_t kappa_t) c. */
+static double modes_below(const strum_cable *cable, strum_plane plane, double w)
+{
+    enum { STEPS = 16 }; /* of the trapezoidal rule */
+    double sum = 0;
+    for (int i = 0; i <= STEPS; i++) {
+        const double c = cosh(cable->chi_m + cable->mu * (2.0 * i / STEPS - 1));
+        const double across = sqrt(cable->mass_n * (1 + cable->kappa_n * c) * c);
+        const double along =
+            plane == STRUM_IN_PLANE ? sqrt(cable->mass_t * cable->kappa_t) * c : 0;
+        sum += (i == 0 || i == STEPS ? 0.5 : 1) * (across + along);
+    }
+    return w / M_PI * sum * 2 * cable->mu / STEPS;
+}
+
+/* Coefficients here and in the other endpoints: measured, tests/bench/costs. */
 double forced_cost_us(const void *data)
 {
     const forced_request *r = data;
-    const double count = forced_frequency_count(r) + (double)r->profiles_at.count;
+    const double frequencies = forced_frequency_count(r) + (double)r->profiles_at.count;
+    const double responses = frequencies * r->motion_count;
+    const double points = (double)r->profiles_at.count * r->motion_count *
+                          (double)(r->profile_points + (int64_t)r->profile_chi.count);
     const bool direct = cable_damped(&r->in) && r->in.eta_tangential != r->in.eta_normal;
-    return 1000 + count * (direct ? 500 : 30) * r->motion_count;
+    double modes = 0;
+    if (r->in_plane)
+        modes += modes_below(&r->in.cable, STRUM_IN_PLANE, r->highest);
+    if (r->out_of_plane)
+        modes += modes_below(&r->in.cable, STRUM_OUT_OF_PLANE, r->highest);
+    double work = 340 + modes * (330 + modes * (16 + 0.25 * modes)) + 6 * points;
+    if (direct) /* a system of equations for each response; the resonances by a pencil */
+        work += 700 * responses + 28 * modes * modes * modes;
+    else
+        work += 10 * responses;
+    return work + (r->verify ? 50 * responses + modes * (380 + 31 * modes) : 0);
 }

@@ -194,11 +194,17 @@ strum_inclined_params inclined_params(const inclined_request *r, int model)
 double inclined_cost_us(const void *data)
 {
     const inclined_request *r = data;
-    double work = 0.2 * (double)r->shape_points * (double)r->modes;
+    /* measured, tests/bench/costs: what the core's estimates are to be multiplied by */
+    static const double share[MODELS] = {
+        [FULL] = 1.2, [AIRY] = 2.3, [ASYMPTOTIC] = 0.3, [IRVINE] = 0.3};
+    const double level = r->cable.inclination == 0 ? 0.5 : 0;
+    double work =
+        20 + (r->compare ? 180 : 0) + (double)r->modes * (30 + 2.6 * (double)r->shape_points);
     for (int model = 0; model < MODELS; model++)
         if (r->compare || model == r->model) {
             const strum_inclined_params params = inclined_params(r, model);
-            work += strum_inclined_work(&params) * (r->verify && model == r->model ? 3 : 1);
+            const double second = r->verify && model == r->model ? 3 : 0;
+            work += strum_inclined_work(&params) * (share[model] + level + second);
         }
     return work;
 }

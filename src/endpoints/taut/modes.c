@@ -9,9 +9,7 @@
 #define SHAPE_POINTS_MAX 2000
 /* Nodes of one answer: an upper bound from the mode numbers. */
 #define NODES_MAX 200000
-/* One varying cable costs as much as so many other components (power series over its tension).
- */
-#define VARYING_COST        500.0
+/* The band of a chain with more of these is not counted beforehand. */
 #define VARYING_COUNTED_MAX 20
 
 static const char *const methods[] = {"certified", "muller", NULL};
@@ -157,23 +155,36 @@ static double mode_estimate(const request *r)
     return by_band(r) ? r->band_last - r->band_below + 3.0 : (double)r->number_count;
 }
 
+/* Mode n has n - 1 nodes, or about as many. */
+static double node_estimate(const request *r, double modes)
+{
+    if (by_band(r))
+        return modes * (r->band_below + modes / 2);
+    double nodes = 0;
+    for (size_t i = 0; i < r->number_count; i++)
+        nodes += (double)r->numbers[i];
+    return nodes;
+}
+
 static double cost_us(const void *data)
 {
     const request *r = data;
-    const double parts =
-        (double)r->in.components.count + VARYING_COST * (double)chain_varying(&r->in);
+    const double parts = (double)r->in.components.count;
+    const double varying = (double)chain_varying(&r->in);
     if (r->chain == NULL)
         return 10.0;
     const double modes = mode_estimate(r);
     const bool damped = strum_taut_is_damped(r->chain);
-    /* Heavy damping may have thousands of overdamped roots: never while others wait. */
-    return (damped ? 200.0 : 20.0) +
-           modes * parts *
-               (damped     ? 15.0
-                : r->nodes ? 1.0
-                           : 0.2) +
-           (r->verify ? (damped ? 1e5 : 1e3 + 2.0 * modes * parts) : 0.0) +
-           modes * (double)r->shape_points * 0.3;
+    const double nodes = node_estimate(r, modes);
+    double work = modes * (0.9 * (double)r->shape_points + (r->nodes ? 0.8 : 0)) +
+                  (r->nodes ? 0.8 * nodes : 0);
+    if (damped)
+        work += 140 + modes * (11 * parts + 290 * varying) +
+                (r->verify ? 2200 + 490 * modes * parts + 90 * nodes : 0);
+    else
+        work += 27 + modes * (0.8 * parts + 190 * varying) +
+                (r->verify ? 160 + 190 * modes * varying : 0);
+    return work;
 }
 
 /* ---- answering ---- */

@@ -32,7 +32,7 @@ const setting settings_table[] = {
     {"queue_depth", SETTING_COUNT, AT(queue_depth), 0, 100000, "0",
      "maximum number of requests that wait for a worker, cheap_us and others each; more get "
      "503; 0: 16 for each worker"},
-    {"inline_us", SETTING_NUMBER, AT(inline_us), 0, 1e6, "50",
+    {"inline_us", SETTING_NUMBER, AT(inline_us), 0, 1e6, "250",
      "a request estimated to take fewer microseconds is solved at once, without a worker"},
     {"cheap_us", SETTING_NUMBER, AT(cheap_us), 0, 1e6, "2000",
      "a request estimated to take fewer microseconds is cheap: one more worker is kept for "

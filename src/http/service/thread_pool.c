@@ -14,7 +14,7 @@
 /* Event threads have 0: a worker gets a tenth of their share of a core that both want. The
  * worker of cheap jobs stands between them: it must not wait for a core that a costly job has. */
 #define WORKER_NICE       10
-#define CHEAP_WORKER_NICE 2
+#define CHEAP_WORKER_NICE 0
 
 /* A lane with work may be passed over so many times in a row. */
 #define PATIENCE 3
