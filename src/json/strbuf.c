@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room for `size` more bytes and the NUL. */
-static bool strbuf_reserve(strbuf *out, size_t size)
+bool strbuf_reserve(strbuf *out, size_t size)
 {
     if (out->failed)
         return false;

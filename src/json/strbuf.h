@@ -14,6 +14,8 @@ typedef struct strbuf {
     bool failed;
 } strbuf;
 
+/* Room for `size` more bytes, at data + size, and the NUL; false without memory. */
+bool strbuf_reserve(strbuf *out, size_t size);
 void strbuf_add(strbuf *out, const void *bytes, size_t size);
 void strbuf_add_string(strbuf *out, const char *string);
 void strbuf_format(strbuf *out, const char *format, ...) __attribute__((format(printf, 2, 3)));

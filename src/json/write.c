@@ -41,9 +41,45 @@ void json_close_array(json_writer *json)
     json->comma = true;
 }
 
+/* Nearly every string is one of ours: ASCII that stands for itself. */
+static bool is_plain(const char *bytes, size_t size)
+{
+    for (size_t i = 0; i < size; i++) {
+        const unsigned char byte = (unsigned char)bytes[i];
+        if (byte < 0x20 || byte >= 0x80 || byte == '"' || byte == '\\')
+            return false;
+    }
+    return true;
+}
+
+/* ,"plain": at once. */
+static void add_plain(json_writer *json, const char *bytes, size_t size, bool key)
+{
+    strbuf *out = json->out;
+    if (!strbuf_reserve(out, size + 4))
+        return;
+    char *at = out->data + out->size;
+    if (json->comma)
+        *at++ = ',';
+    *at++ = '"';
+    memcpy(at, bytes, size);
+    at += size;
+    *at++ = '"';
+    if (key)
+        *at++ = ':';
+    *at = '\0';
+    out->size = (size_t)(at - out->data);
+    json->comma = !key;
+}
+
 void json_key(json_writer *json, const char *key)
 {
-    json_string(json, key);
+    const size_t size = strlen(key);
+    if (is_plain(key, size)) {
+        add_plain(json, key, size, true);
+        return;
+    }
+    json_string_n(json, key, size);
     strbuf_add(json->out, ":", 1);
     json->comma = false;
 }
@@ -65,8 +101,17 @@ void json_number(json_writer *json, double value)
 
 void json_integer(json_writer *json, int64_t value)
 {
+    char buffer[32]; /* every digit of 2^64 takes 20 */
+    char *const end = buffer + sizeof buffer;
+    uint64_t rest = value < 0 ? 0 - (uint64_t)value : (uint64_t)value;
+    char *at = end;
+    do
+        *--at = (char)('0' + rest % 10);
+    while ((rest /= 10) > 0);
+    if (value < 0)
+        *--at = '-';
     begin_value(json);
-    strbuf_format(json->out, "%lld", (long long)value);
+    strbuf_add(json->out, at, (size_t)(end - at));
 }
 
 void json_flag(json_writer *json, bool value)
@@ -94,6 +139,10 @@ static void add_escape(strbuf *out, unsigned char byte)
 
 void json_string_n(json_writer *json, const char *bytes, size_t size)
 {
+    if (is_plain(bytes, size)) {
+        add_plain(json, bytes, size, false);
+        return;
+    }
     strbuf *out = json->out;
     begin_value(json);
     strbuf_add(out, "\"", 1);
@@ -102,8 +151,7 @@ void json_string_n(json_writer *json, const char *bytes, size_t size)
     for (const char *at = bytes; at < end;) {
         const unsigned char byte = (unsigned char)*at;
         const bool itself = byte >= 0x20 && byte != '"' && byte != '\\';
-        /* Nearly every string is one of ours, in ASCII: no sequence to judge. */
-        const size_t length = byte < 0x80 ? 1 : utf8_size(at, end);
+        const size_t length = utf8_size(at, end);
         if (length > 0 && itself) {
             at += length;
             continue;

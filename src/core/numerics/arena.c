@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/numerics/arena.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -9,11 +10,12 @@ struct arena_block {
     max_align_t data[];
 };
 
-void *arena_alloc(arena *a, size_t count, size_t size)
+static void *take(arena *a, size_t count, size_t size, bool zeroed)
 {
     if (size != 0 && count > (SIZE_MAX - sizeof(arena_block)) / size)
         return NULL;
-    arena_block *block = calloc(1, sizeof *block + count * size);
+    const size_t bytes = sizeof(arena_block) + count * size;
+    arena_block *block = zeroed ? calloc(1, bytes) : malloc(bytes);
     if (block == NULL)
         return NULL;
     block->before = a->last;
@@ -21,9 +23,19 @@ void *arena_alloc(arena *a, size_t count, size_t size)
     return block->data;
 }
 
+void *arena_alloc(arena *a, size_t count, size_t size)
+{
+    return take(a, count, size, true);
+}
+
 double *arena_doubles(arena *a, size_t count)
 {
-    return arena_alloc(a, count, sizeof(double));
+    return take(a, count, sizeof(double), true);
+}
+
+double *arena_room(arena *a, size_t count)
+{
+    return take(a, count, sizeof(double), false);
 }
 
 void arena_free(arena *a)

@@ -16,6 +16,9 @@ typedef struct arena {
 /* Zeroed memory that lives until arena_free; NULL when there is none left. */
 void *arena_alloc(arena *a, size_t count, size_t size);
 double *arena_doubles(arena *a, size_t count);
+/* The same with any contents: for large tables that are written before they are read, whose
+ * zeroing would cost as much as a tenth of a solve. */
+double *arena_room(arena *a, size_t count);
 void arena_free(arena *a);
 
 #endif

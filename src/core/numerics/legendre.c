@@ -56,7 +56,7 @@ strum_status legendre_make(int count, double pole, bool half, arena *a, legendre
     b->count = count;
     b->points = (int)points;
     b->x = arena_doubles(a, 4 * points);
-    b->p = arena_doubles(a, 2 * points * (size_t)count);
+    b->p = arena_room(a, 2 * points * (size_t)count);
     if (b->x == NULL || b->p == NULL)
         return STRUM_ERR_MEMORY;
     b->w = b->x + points;

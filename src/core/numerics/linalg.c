@@ -47,12 +47,12 @@ static strum_status symmetric_standard(int n, double *c, int want, double *value
                                        double *vectors, arena *scratch)
 {
     const size_t size = (size_t)n;
-    double *all = arena_doubles(scratch, size);
+    double *all = arena_room(scratch, size);
     lapack_int *support = arena_alloc(scratch, 2 * size, sizeof *support);
     lapack_int *iwork = arena_alloc(scratch, 10 * size, sizeof *iwork);
     const lapack_int lwork = 40 * n;
-    double *room = arena_doubles(scratch, (size_t)lwork);
-    double *z = vectors != NULL ? arena_doubles(scratch, size * (size_t)want) : NULL;
+    double *room = arena_room(scratch, (size_t)lwork);
+    double *z = vectors != NULL ? arena_room(scratch, size * (size_t)want) : NULL;
     if (all == NULL || support == NULL || iwork == NULL || room == NULL ||
         (vectors != NULL && z == NULL))
         return STRUM_ERR_MEMORY;
@@ -89,8 +89,8 @@ strum_status linalg_symmetric(int n, const double *a, int lda, const double *b, 
     if (work_spend(scratch->work, 4e-4 * n * n * (double)n) != STRUM_OK)
         return scratch->work->status;
     const size_t size = (size_t)n * (size_t)n;
-    double *c = arena_doubles(scratch, size);
-    double *root = b != NULL ? arena_doubles(scratch, size) : NULL;
+    double *c = arena_room(scratch, size);
+    double *root = b != NULL ? arena_room(scratch, size) : NULL;
     if (c == NULL || (b != NULL && root == NULL))
         return STRUM_ERR_MEMORY;
     copy(n, n, a, lda, c, n);
@@ -108,7 +108,10 @@ strum_status linalg_symmetric(int n, const double *a, int lda, const double *b, 
     if (status == STRUM_OK && b != NULL && vectors != NULL)
         cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, n, want, 1,
                     root, n, vectors, n);
-    for (int i = 0; status == STRUM_OK && vectors != NULL && i < want; i++) {
+    /* what is rounding of the largest has no digits to mend, nor has what follows it */
+    for (int i = 0; status == STRUM_OK && vectors != NULL && i < want &&
+                    (i == 0 || values[i - 1] > DBL_EPSILON / 4 * values[0]);
+         i++) {
         const double *v = vectors + (size_t)i * (size_t)n;
         values[i] = quadratic_form(n, a, lda, v) /
                     (b != NULL ? quadratic_form(n, b, ldb, v) : cblas_ddot(n, v, 1, v, 1));
@@ -123,7 +126,7 @@ strum_status linalg_semidefinite_root(int n, const double *a, int lda, double *l
         return scratch->work->status;
     lapack_int *pivots = arena_alloc(scratch, (size_t)n, sizeof *pivots);
     double *room = arena_doubles(scratch, 2 * (size_t)n);
-    double *c = arena_doubles(scratch, (size_t)n * (size_t)n);
+    double *c = arena_room(scratch, (size_t)n * (size_t)n);
     if (pivots == NULL || room == NULL || c == NULL)
         return STRUM_ERR_MEMORY;
     copy(n, n, a, lda, c, n);
@@ -148,10 +151,10 @@ strum_status linalg_quadratic(int n, const double *c, const double *m, double _C
         return scratch->work->status;
     const size_t s = (size_t)n, two = 2 * s;
     double *companion = arena_doubles(scratch, two * two);
-    double *v = vectors != NULL ? arena_doubles(scratch, two * two) : NULL;
+    double *v = vectors != NULL ? arena_room(scratch, two * two) : NULL;
     double *re = arena_doubles(scratch, two), *im = arena_doubles(scratch, two);
     const lapack_int lwork = (lapack_int)(16 * two);
-    double *room = arena_doubles(scratch, (size_t)lwork);
+    double *room = arena_room(scratch, (size_t)lwork);
     if (companion == NULL || (vectors != NULL && v == NULL) || re == NULL || im == NULL ||
         room == NULL)
         return STRUM_ERR_MEMORY;

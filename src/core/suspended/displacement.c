@@ -20,8 +20,8 @@ static strum_status sample(const strum_cable *cable, const legendre *b, int firs
 {
     const size_t points = (size_t)b->points, n = (size_t)s->count;
     s->points = b->points;
-    double *weight = arena_doubles(a, 5 * points);
-    s->strain = arena_doubles(a, 3 * points * n);
+    double *weight = arena_room(a, 5 * points);
+    s->strain = arena_room(a, 3 * points * n);
     if (weight == NULL || s->strain == NULL)
         return STRUM_ERR_MEMORY;
     s->motion = s->strain + points * n;
@@ -89,7 +89,7 @@ strum_status displacement_roots(const strum_cable *cable, bool by_symmetry, int 
         const int n = (size - i + classes - 1) / classes;
         samples s = {.count = n};
         strum_status status = sample(cable, &b, 2 + i, classes, a, &s);
-        double *matrices = arena_doubles(a, 2 * (size_t)n * (size_t)n);
+        double *matrices = arena_room(a, 2 * (size_t)n * (size_t)n);
         if (status != STRUM_OK || matrices == NULL)
             return STRUM_ERR_MEMORY;
         double *stiffness = matrices + (size_t)n * (size_t)n;

@@ -34,6 +34,8 @@ __extension__ typedef __float128 quad; /* so named for clang too */
 
 static quad decimal(double value)
 {
+    if (value == trunc(value) && fabs(value) < 1e15)
+        return value; /* whole: it is its own decimal */
     char digits[40];
     int precision = 14;
     do

@@ -51,7 +51,7 @@ strum_status in_plane_frame_make(const mapping *along, const legendre *b, arena 
 {
     const size_t points = (size_t)b->points;
     frame->b = b;
-    frame->cosh_chi = arena_doubles(a, 4 * points);
+    frame->cosh_chi = arena_room(a, 4 * points);
     if (frame->cosh_chi == NULL)
         return STRUM_ERR_MEMORY;
     frame->c = frame->cosh_chi + points;
@@ -98,7 +98,7 @@ static strum_status sample_part(const in_plane_frame *f, const in_plane_part *pa
 {
     const size_t points = (size_t)f->b->points;
     out->count = (int)points * ((root_t != NULL) + (root_n != NULL));
-    out->data = arena_doubles(scratch, (size_t)out->count * (size_t)part->count);
+    out->data = arena_room(scratch, (size_t)out->count * (size_t)part->count);
     if (out->data == NULL)
         return STRUM_ERR_MEMORY;
     for (int j = 0; j < part->count; j++)
@@ -138,7 +138,7 @@ static strum_status project(const in_plane_frame *f, const in_plane_part *part,
                             in_plane_constants *constants, arena *scratch)
 {
     const int n = w->count, m = part->constant_count;
-    double *q = arena_doubles(scratch, (size_t)n * 2);
+    double *q = arena_room(scratch, (size_t)n * 2);
     if (q == NULL)
         return STRUM_ERR_MEMORY;
     double r[2][2] = {{0}};
@@ -185,7 +185,7 @@ strum_status in_plane_compliance(const strum_cable *cable, const in_plane_frame 
                                  arena *scratch)
 {
     const int points = f->b->points;
-    double *root_n = arena_doubles(scratch, 2 * (size_t)points);
+    double *root_n = arena_room(scratch, 2 * (size_t)points);
     if (root_n == NULL)
         return STRUM_ERR_MEMORY;
     double *root_t = cable->kappa_t > 0 ? root_n + points : NULL;
@@ -212,7 +212,7 @@ static strum_status weighted(double weight_t, double weight_n, int power,
 {
     const int points = f->b->points;
     const size_t n = (size_t)part->count;
-    double *root = arena_doubles(scratch, 2 * (size_t)points);
+    double *root = arena_room(scratch, 2 * (size_t)points);
     if (root == NULL)
         return STRUM_ERR_MEMORY;
     double *root_t = weight_t > 0 ? root : NULL, *root_n = weight_n > 0 ? root + points : NULL;

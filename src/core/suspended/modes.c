@@ -106,6 +106,8 @@ double spectrum_phase_count(const strum_cable *cable, strum_plane plane, double 
 {
     const mapping x = mapping_linear(cable);
     double phase, steepest;
+    if (frequency == 0) /* every undamped cable asks this */
+        return 0;
     wave_phase(cable, &x, plane, &phase, &steepest);
     return frequency * phase / M_PI;
 }
@@ -135,17 +137,25 @@ int spectrum_first_size(const strum_cable *cable, const mapping *x, strum_plane 
 
 /* Another coordinate is worth it for what is both large and made much smaller, and for digits.
  */
-mapping spectrum_mapping(const strum_cable *cable, strum_plane plane, int count)
+mapping spectrum_mapping(const strum_cable *cable, strum_plane plane, int count, int *size)
 {
     const mapping linear = mapping_linear(cable);
     const mapping stretched = mapping_stretched(cable, STRETCH);
-    const int size = spectrum_first_size(cable, &linear, plane, count);
-    if (size > 120 && spectrum_first_size(cable, &stretched, plane, count) < 0.75 * size)
-        return stretched;
-    if (fabs(cable->chi_m) + cable->mu < CHI_STEEP)
+    *size = spectrum_first_size(cable, &linear, plane, count);
+    const bool steep = fabs(cable->chi_m) + cable->mu >= CHI_STEEP;
+    if (*size <= 120 && !steep)
         return linear;
-    return mapping_ellipse_rate(&stretched) > 0.02 ? stretched
-                                                   : mapping_stretched(cable, STRETCH_STEEP);
+    const int other = spectrum_first_size(cable, &stretched, plane, count);
+    const bool smaller = *size > 120 && other < 0.75 * *size;
+    if (!smaller && !steep)
+        return linear;
+    if (smaller || mapping_ellipse_rate(&stretched) > 0.02) {
+        *size = other;
+        return stretched;
+    }
+    const mapping steeper = mapping_stretched(cable, STRETCH_STEEP);
+    *size = spectrum_first_size(cable, &steeper, plane, count);
+    return steeper;
 }
 
 /* Largest relative difference of each root of `list` to the nearest of `other`. */
@@ -293,14 +303,16 @@ static strum_status solve(strum_modes *sp, int count, strum_error *fault)
     const int most = sp->plane == STRUM_OUT_OF_PLANE || in_plane_proportional(&sp->cable)
                          ? SPECTRUM_SIZE_MAX
                          : SPECTRUM_SIZE_MAX_QUADRATIC;
-    sp->coordinate = spectrum_mapping(&sp->cable, sp->plane, want);
     const bool slim = by_displacement(&sp->cable, sp->plane, sp->shapes);
+    int first;
+    if (slim)
+        first = displacement_first_size(&sp->cable, want);
+    else
+        sp->coordinate = spectrum_mapping(&sp->cable, sp->plane, want, &first);
     /* what converges slowly needs more of a difference between the two sizes */
     const bool steep = sp->coordinate.stretch != 0;
     /* shapes converge at half the rate of frequencies */
-    double block = slim ? displacement_first_size(&sp->cable, want)
-                        : spectrum_first_size(&sp->cable, &sp->coordinate, sp->plane, want) *
-                              (sp->shapes ? 1.35 : 1);
+    double block = first * (sp->shapes ? 1.35 : 1);
     double before = INFINITY, excess = INFINITY;
     while (block < most) {
         const int inner = (int)block;
@@ -399,8 +411,9 @@ double strum_modes_work(const strum_modes_params *params)
         const double size = displacement_first_size(cable, want);
         return 25 + size * size * ((level ? 0.04 : 0.09) + (level ? 1.5e-4 : 6e-4) * size);
     }
-    const mapping x = spectrum_mapping(cable, plane, want);
-    double size = spectrum_first_size(cable, &x, plane, want) * (shapes ? 1.35 : 1);
+    int first;
+    (void)spectrum_mapping(cable, plane, want, &first);
+    double size = first * (shapes ? 1.35 : 1);
     if (plane == STRUM_IN_PLANE && !level)
         size *= 2;
     const bool quadratic = plane == STRUM_IN_PLANE && !in_plane_proportional(cable);

@@ -60,8 +60,8 @@ double spectrum_phase_count(const strum_cable *cable, strum_plane plane, double 
 /* Size at which the first `count` modes should be right to 1e-12. */
 int spectrum_first_size(const strum_cable *cable, const mapping *x, strum_plane plane,
                         int count);
-/* The coordinate in which they need fewer functions. */
-mapping spectrum_mapping(const strum_cable *cable, strum_plane plane, int count);
+/* The coordinate in which they need fewer functions, and that size in it. */
+mapping spectrum_mapping(const strum_cable *cable, strum_plane plane, int count, int *size);
 
 /* Force F, F' = dF/dsigma and displacement X of a mode at x, in the middle tangent frame. */
 typedef struct in_plane_state {

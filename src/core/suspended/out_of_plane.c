@@ -85,7 +85,7 @@ static strum_status weigh(const strum_cable *cable, const mapping *x, bool force
                           const legendre *b, arena *a, double **value, double **slope)
 {
     const size_t points = (size_t)b->points;
-    *value = arena_doubles(a, 2 * points);
+    *value = arena_room(a, 2 * points);
     if (*value == NULL)
         return STRUM_ERR_MEMORY;
     *slope = *value + points;
@@ -107,8 +107,8 @@ static strum_status class_make(const legendre *b, const double *value, const dou
         return STRUM_ERR_MEMORY;
     c->count = choose(c->symmetry, force_form, c->size, c->index);
     const size_t points = (size_t)b->points, count = (size_t)c->count;
-    double *w = arena_doubles(a, points * count);
-    c->a = arena_doubles(a, (identity ? 1 : 2) * count * count);
+    double *w = arena_room(a, points * count);
+    c->a = arena_room(a, (identity ? 1 : 2) * count * count);
     if (w == NULL || c->a == NULL)
         return STRUM_ERR_MEMORY;
     for (size_t j = 0; j < count; j++) {

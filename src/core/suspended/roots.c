@@ -55,11 +55,11 @@ strum_status in_plane_assemble(const strum_cable *cable, const mapping *x,
         return status;
     const size_t n = (size_t)out->part.count;
     const bool symmetric = form == IN_PLANE_FORCE_FORM && in_plane_proportional(cable);
-    out->compliance = arena_doubles(a, n * n);
+    out->compliance = arena_room(a, n * n);
     out->constants.from_unknowns = arena_doubles(a, 2 * n);
-    out->complementary = symmetric ? arena_doubles(a, n * n) : NULL;
-    out->mass = symmetric ? NULL : arena_doubles(a, n * n);
-    out->damping = symmetric ? NULL : arena_doubles(a, n * n);
+    out->complementary = symmetric ? arena_room(a, n * n) : NULL;
+    out->mass = symmetric ? NULL : arena_room(a, n * n);
+    out->damping = symmetric ? NULL : arena_room(a, n * n);
     if (out->compliance == NULL || out->constants.from_unknowns == NULL ||
         (symmetric ? out->complementary == NULL : out->mass == NULL || out->damping == NULL))
         return STRUM_ERR_MEMORY;

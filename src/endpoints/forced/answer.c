@@ -263,19 +263,19 @@ static bool drives(const forced_request *r, int i, strum_plane plane)
     return moves || !forced_periodic(r);
 }
 
+static bool on_curve(const forced_request *r, double frequency_ratio)
+{
+    return r->curve_min <= frequency_ratio && frequency_ratio <= r->curve_max;
+}
+
 /* One natural frequency, once for every multiple of a forcing frequency in the range that meets
  * it. `strength` is negative where it has no meaning. */
 static void write_resonance(json_writer *json, const forced_request *r,
                             const strum_resonance *at, double decay, double strength)
 {
-    double lowest = INFINITY, highest = 0;
-    for (int i = 0; i < forced_frequency_count(r); i++) {
-        lowest = fmin(lowest, forced_frequency_at(r, i));
-        highest = fmax(highest, forced_frequency_at(r, i));
-    }
     for (int i = 0; i < r->motion_count; i++) {
         const double forcing = at->frequency * r->in.ratio / r->multiples[i];
-        if (forcing < lowest || forcing > highest || !drives(r, i, at->plane))
+        if (!on_curve(r, forcing) || !drives(r, i, at->plane))
             continue;
         json_open_object(json);
         json_put_string(json, "plane",
@@ -433,17 +433,23 @@ static strum_status write_verification(json_writer *json, solving *s,
     return STRUM_OK;
 }
 
-/* The natural frequencies that were met, with how strongly the first motion drives each; NULL
- * without memory. */
+/* The natural frequencies that were met, with how strongly the motion drives each where that
+ * is written; NULL without memory. */
 static strum_resonance *list_resonances(const solving *s, size_t *count)
 {
+    const forced_request *r = s->r;
+    const bool strengths = !forced_periodic(r) && !cable_damped(&r->in);
     *count = strum_forced_count(s->forced);
     strum_resonance *list = calloc(*count + 1, sizeof *list);
-    for (size_t i = 0; list != NULL && i < *count; i++)
-        if (strum_forced_get(s->forced, i, &s->r->motions[0], &list[i]) != STRUM_OK) {
+    for (size_t i = 0; list != NULL && i < *count; i++) {
+        strum_status status = strum_forced_get(s->forced, i, NULL, &list[i]);
+        if (status == STRUM_OK && strengths && on_curve(r, list[i].frequency * r->in.ratio))
+            status = strum_forced_get(s->forced, i, &r->motions[0], &list[i]);
+        if (status != STRUM_OK) {
             free(list);
             list = NULL;
         }
+    }
     return list;
 }
 

@@ -145,12 +145,10 @@ int forced_frequency_count(const forced_request *r)
 
 const char *forced_highest_field(const forced_request *r)
 {
-    double curve = 0, profiles = 0;
-    for (int i = 0; i < forced_frequency_count(r); i++)
-        curve = fmax(curve, forced_frequency_at(r, i));
+    double profiles = 0;
     for (size_t i = 0; i < r->profiles_at.count; i++)
         profiles = fmax(profiles, r->profiles_at.items[i]);
-    return profiles > curve                ? "/profiles_at"
+    return profiles > r->curve_max         ? "/profiles_at"
            : r->frequency_ratios.count > 0 ? "/frequency_ratios"
                                            : "/frequency_ratio_max";
 }
@@ -181,8 +179,12 @@ void forced_prepare(void *data, schema_arena *arena, problem *p)
         multiple = r->multiples[i] > multiple ? r->multiples[i] : multiple;
     }
     r->in_plane |= !r->out_of_plane;
-    for (int i = 0; i < forced_frequency_count(r); i++)
-        r->highest = fmax(r->highest, forced_frequency_at(r, i));
+    r->curve_min = INFINITY;
+    for (int i = 0; i < forced_frequency_count(r); i++) {
+        r->curve_min = fmin(r->curve_min, forced_frequency_at(r, i));
+        r->curve_max = fmax(r->curve_max, forced_frequency_at(r, i));
+    }
+    r->highest = r->curve_max;
     for (size_t i = 0; i < r->profiles_at.count; i++)
         r->highest = fmax(r->highest, r->profiles_at.items[i]);
     r->highest *= multiple;

@@ -22,7 +22,8 @@ typedef struct forced_request {
     /* computed by prepare */
     strum_end_motion motions[FORCED_HARMONICS_MAX];
     int multiples[FORCED_HARMONICS_MAX], motion_count;
-    double highest; /* frequency ratio, times the highest multiple */
+    double curve_min, curve_max; /* frequency ratios of the curve */
+    double highest;              /* of the curve and the profiles, times the highest multiple */
     bool in_plane, out_of_plane;
 } forced_request;
 

@@ -80,13 +80,13 @@ static strum_status make_part(const strum_cable *cable, const mapping *x,
     if (status != STRUM_OK)
         return status;
     const size_t n = (size_t)part->part.count;
-    part->compliance = arena_doubles(a, n * n);
-    part->along = arena_doubles(a, n * n);
-    part->across = arena_doubles(a, n * n);
-    part->phi = arena_doubles(a, n * n);
+    part->compliance = arena_room(a, n * n);
+    part->along = arena_room(a, n * n);
+    part->across = arena_room(a, n * n);
+    part->phi = arena_room(a, n * n);
     part->mu = arena_doubles(a, n);
     part->constants.from_unknowns = arena_doubles(a, 2 * n);
-    double *k = arena_doubles(a, n * n);
+    double *k = arena_room(a, n * n);
     if (part->compliance == NULL || part->along == NULL || part->across == NULL ||
         part->phi == NULL || part->mu == NULL || part->constants.from_unknowns == NULL ||
         k == NULL)
@@ -110,9 +110,9 @@ static strum_status make_samples(strum_forced *f)
 {
     f->samples = 3 * f->size / 2 + 1;
     const size_t samples = (size_t)f->samples, size = (size_t)f->size;
-    f->sample_q = arena_doubles(&f->memory, samples * size);
-    f->sample_t = arena_doubles(&f->memory, 2 * samples);
-    double *one = arena_doubles(&f->memory, 2 * size);
+    f->sample_q = arena_room(&f->memory, samples * size);
+    f->sample_t = arena_room(&f->memory, 2 * samples);
+    double *one = arena_room(&f->memory, 2 * size);
     f->factors = arena_doubles(&f->memory, 4 * size);
     if (f->factors == NULL || f->sample_q == NULL || f->sample_t == NULL || one == NULL)
         return STRUM_ERR_MEMORY;
@@ -248,9 +248,11 @@ static strum_status make(strum_forced *f, work *w, strum_error *fault)
     const strum_plane plane = f->in_plane ? STRUM_IN_PLANE : STRUM_OUT_OF_PLANE;
     const int modes = (int)ceil(count);
     const strum_status status = grow(f, mapping_linear(&f->cable), modes, w, fault);
-    const mapping other = spectrum_mapping(&f->cable, plane, modes);
-    return status == STRUM_ERR_ACCURACY && other.stretch != 0 ? grow(f, other, modes, w, fault)
-                                                              : status;
+    if (status != STRUM_ERR_ACCURACY)
+        return status;
+    int size;
+    const mapping other = spectrum_mapping(&f->cable, plane, modes, &size);
+    return other.stretch != 0 ? grow(f, other, modes, w, fault) : status;
 }
 
 strum_status strum_forced_solve(const strum_forced_params *params, const strum_options *options,

@@ -28,9 +28,9 @@ strum_status forced_out_of_plane_make(strum_forced *f)
     if (status != STRUM_OK)
         return status;
     const size_t n = (size_t)f->size - 1, points = (size_t)b.points;
-    double *w = arena_doubles(a, 2 * points * n), *m = arena_doubles(a, 2 * n * n);
+    double *w = arena_room(a, 2 * points * n), *m = arena_room(a, 2 * n * n);
     f->out_nu = arena_doubles(a, n);
-    f->out_v = arena_doubles(a, n * n);
+    f->out_v = arena_room(a, n * n);
     f->out_inertia = arena_doubles(a, 2 * n);
     if (w == NULL || m == NULL || f->out_nu == NULL || f->out_v == NULL ||
         f->out_inertia == NULL)
