@@ -4,8 +4,11 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "core/numerics/work.h"
+
 struct arena_block {
     arena_block *before;
+    size_t size; /* of all of it */
     max_align_t data[];
 };
 
@@ -13,9 +16,15 @@ void *arena_alloc(arena *a, size_t count, size_t size)
 {
     if (size != 0 && count > (SIZE_MAX - sizeof(arena_block)) / size)
         return NULL;
-    arena_block *block = calloc(1, sizeof *block + count * size);
-    if (block == NULL)
+    const size_t whole = sizeof(arena_block) + count * size;
+    if (!work_take(a->work, whole))
         return NULL;
+    arena_block *block = calloc(1, whole);
+    if (block == NULL) {
+        work_give_back(a->work, whole);
+        return NULL;
+    }
+    block->size = whole;
     block->before = a->last;
     a->last = block;
     return block->data;
@@ -30,6 +39,7 @@ void arena_free(arena *a)
 {
     while (a->last != NULL) {
         arena_block *before = a->last->before;
+        work_give_back(a->work, a->last->size);
         free(a->last);
         a->last = before;
     }

@@ -488,7 +488,8 @@ static void a_search_can_be_cancelled(void **state)
     strum_taut *chain = levesque(9.0, 0.12, 2240.0);
     int asked = 0;
     const strum_taut_query query = {.lowest = 1.0, .highest = 200.0, .max_decay = 40.0};
-    const strum_options options = {stop, &asked, 0}, little = {.work_max = 50};
+    const strum_options options = {.cancelled = stop, .context = &asked},
+                        little = {.work_max = 50};
     strum_taut_roots *roots;
     strum_error fault;
     assert_int_equal(strum_taut_solve(chain, &query, &options, &roots, &fault),
