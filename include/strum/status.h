@@ -30,7 +30,9 @@ STRUM_BEGIN_DECLS
     ENTRY(STRUM_ERR_MEMORY, -5, "out of memory")                                               \
     ENTRY(STRUM_ERR_CANCELLED, -6, "the computation was cancelled")                            \
     ENTRY(STRUM_ERR_INTERNAL, -7, "internal error")                                            \
-    ENTRY(STRUM_ERR_WORK, -8, "the limit of work was reached")
+    ENTRY(STRUM_ERR_WORK, -8, "the limit of work was reached")                                 \
+    ENTRY(STRUM_ERR_TIME, -9, "the limit of CPU time was reached")                             \
+    ENTRY(STRUM_ERR_BYTES, -10, "the limit of memory was reached")
 
 typedef enum strum_status {
 #define STRUM_STATUS_ENTRY(name, value, text) name = value,

@@ -132,7 +132,7 @@ static strum_status evaluate(const strum_inclined *m, const inclined_samples *at
 /* du/dx of all modes, without which a shape cannot be told. */
 static strum_status find_stretch(strum_inclined *m, work *w)
 {
-    arena scratch = {0};
+    arena scratch = {.work = w};
     legendre b;
     strum_status status =
         legendre_make(m->size, mapping_singularity(&m->along), false, &scratch, &b);
@@ -267,7 +267,6 @@ static strum_status verify(const strum_inclined *m, strum_verification *v, arena
                          "the second method does not reach a cable that its tension "
                          "stretches %.1g times: it is answered without verify only",
                          1 / m->statics.stiffness);
-    a->work = w;
     const strum_status status = compare(m, v, a, w);
     return status == STRUM_OK ? status
                               : error_set(error, status, "%s", strum_status_text(status));

@@ -150,7 +150,7 @@ static strum_status largest(const survey *s, int mode, int component, double *be
                 continue;
             strum_inclined_point p;
             const double x = s->x[i] + t * (s->x[1] - s->x[0]);
-            arena scratch = {0};
+            arena scratch = {.work = s->work};
             const strum_status status = s->m->model->evaluate(
                 s->m, &(inclined_samples){mode, mode + 1, 1, &x, &p}, &scratch, s->work);
             arena_free(&scratch);
@@ -190,7 +190,7 @@ static strum_status measure_mode(const survey *s, const energies *e, int mode,
 
 strum_status inclined_measure(strum_inclined *m, work *w)
 {
-    arena scratch = {0};
+    arena scratch = {.work = w};
     survey s = {0};
     energies *e = arena_alloc(&scratch, (size_t)m->count, sizeof *e);
     strum_status status = e == NULL ? STRUM_ERR_MEMORY : find_energies(m, e, &scratch, w);

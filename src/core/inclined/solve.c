@@ -56,7 +56,7 @@ static strum_status solve(strum_inclined *m, work *w, strum_error *error)
     m->modes = arena_alloc(&m->memory, (size_t)m->count, sizeof *m->modes);
     m->unit = arena_doubles(&m->memory, (size_t)m->count);
     if (m->modes == NULL || m->unit == NULL)
-        return error_set(error, STRUM_ERR_MEMORY, "out of memory");
+        return work_result(w, STRUM_ERR_MEMORY, error);
     strum_status status = check_model(m, error);
     if (status == STRUM_OK)
         status = m->model->solve(m, w, error);
@@ -88,11 +88,14 @@ strum_status strum_inclined_solve(const strum_inclined_params *p, const strum_op
     m->statics = statics;
     m->count = (int)p->count;
     m->length = p->cable.epsilon / cos(p->cable.inclination);
+    m->memory.work = &w;
     status = solve(m, &w, error);
-    if (status == STRUM_OK)
-        *modes = m;
-    else
+    if (status != STRUM_OK) {
         strum_inclined_free(m);
+        return status;
+    }
+    m->memory.work = NULL; /* it ends here */
+    *modes = m;
     return status;
 }
 
@@ -168,7 +171,7 @@ strum_status strum_inclined_verify(const strum_inclined *m, const strum_options 
 {
     *v = (strum_verification){.modes_found = m->count};
     work w = work_begin(options);
-    arena a = {0};
+    arena a = {.work = &w};
     const strum_status status = m->model->verify(m, v, &a, &w, error);
     arena_free(&a);
     return w.status == STRUM_OK ? status : work_error(&w, error);

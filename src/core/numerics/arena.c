@@ -5,8 +5,11 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "core/numerics/work.h"
+
 struct arena_block {
     arena_block *before;
+    size_t size; /* of all of it */
     max_align_t data[];
 };
 
@@ -14,10 +17,15 @@ static void *take(arena *a, size_t count, size_t size, bool zeroed)
 {
     if (size != 0 && count > (SIZE_MAX - sizeof(arena_block)) / size)
         return NULL;
-    const size_t bytes = sizeof(arena_block) + count * size;
-    arena_block *block = zeroed ? calloc(1, bytes) : malloc(bytes);
-    if (block == NULL)
+    const size_t whole = sizeof(arena_block) + count * size;
+    if (!work_take(a->work, whole))
         return NULL;
+    arena_block *block = zeroed ? calloc(1, whole) : malloc(whole);
+    if (block == NULL) {
+        work_give_back(a->work, whole);
+        return NULL;
+    }
+    block->size = whole;
     block->before = a->last;
     a->last = block;
     return block->data;
@@ -42,6 +50,7 @@ void arena_free(arena *a)
 {
     while (a->last != NULL) {
         arena_block *before = a->last->before;
+        work_give_back(a->work, a->last->size);
         free(a->last);
         a->last = before;
     }

@@ -8,12 +8,13 @@
 typedef struct arena_block arena_block;
 typedef struct arena {
     arena_block *last;
-    struct work
-        *work; /* of the solve this belongs to, which linalg.h asks before it begins anything
-                   long; NULL: no limit */
+    /* Of the solve this belongs to: counts the memory, and linalg.h asks it before it begins
+     * anything long. NULL: no limit, and once it has ended. */
+    struct work *work;
 } arena;
 
-/* Zeroed memory that lives until arena_free; NULL when there is none left. */
+/* Zeroed memory that lives until arena_free; NULL when there is none left, or none that the work
+ * may use: its status then says so (work_result). */
 void *arena_alloc(arena *a, size_t count, size_t size);
 double *arena_doubles(arena *a, size_t count);
 /* The same with any contents: for large tables that are written before they are read, whose

@@ -16,6 +16,7 @@
 
 #include <strum/version.h>
 
+#include "core/numerics/arena.h"
 #include "core/numerics/linalg.h"
 
 #define ARGUMENTS 400
@@ -96,7 +97,7 @@ static strum_status add_matrices(digest *d, int n, arena *scratch)
     add(d, c, square);
     linalg_multiply('T', 'N', n, n, n, a, n, b, n, c, n);
     add(d, c, square);
-    linalg_gram(n, n, a, n, c, n); /* semidefinite */
+    (void)linalg_gram(n, n, a, n, c, n, NULL); /* semidefinite */
     add(d, c, square);
     for (int i = 0; i < n; i++)
         c[i * n + i] += n; /* definite */
@@ -104,18 +105,18 @@ static strum_status add_matrices(digest *d, int n, arena *scratch)
         for (int j = 0; j < n; j++)
             b[i * n + j] = 0.5 * (a[i * n + j] + a[j * n + i]);
     int rank;
-    strum_status status = linalg_symmetric(n, b, n, NULL, n, n, e, NULL, scratch);
+    strum_status status = linalg_symmetric(n, b, n, NULL, n, n, e, NULL, NULL);
     add(d, e, (size_t)n);
     if (status == STRUM_OK)
-        status = linalg_symmetric(n, b, n, c, n, n / 2 + 1, e, e + n, scratch);
+        status = linalg_symmetric(n, b, n, c, n, n / 2 + 1, e, e + n, NULL);
     if (status == STRUM_OK)
         add(d, e, (size_t)n * (size_t)(n / 2 + 2));
     if (status == STRUM_OK)
-        status = linalg_semidefinite_root(n, c, n, e, &rank, scratch);
+        status = linalg_semidefinite_root(n, c, n, e, &rank, NULL);
     if (status == STRUM_OK)
         add(d, e, square);
     if (status == STRUM_OK)
-        status = linalg_quadratic(n, b, c, values, z, scratch);
+        status = linalg_quadratic(n, b, c, values, z, NULL);
     for (int i = 0; status == STRUM_OK && i < 2 * n; i++)
         add(d, (double[2]){creal(values[i]), cimag(values[i])}, 2);
     for (size_t i = 0; i < square; i++)
@@ -123,7 +124,7 @@ static strum_status add_matrices(digest *d, int n, arena *scratch)
     for (int i = 0; i < n; i++)
         values[i] = CMPLX(c[i], a[i]);
     if (status == STRUM_OK)
-        status = linalg_complex_solve(n, z, values, scratch);
+        status = linalg_complex_solve(n, z, values, NULL);
     for (int i = 0; status == STRUM_OK && i < n; i++)
         add(d, (double[2]){creal(values[i]), cimag(values[i])}, 2);
     return status;

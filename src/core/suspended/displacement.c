@@ -56,15 +56,15 @@ static strum_status sample(const strum_cable *cable, const legendre *b, int firs
 /* Modes of the first `n` functions: M v = (1/w^2) K v. */
 static strum_status solve(const strum_cable *cable, strum_symmetry symmetry, int full,
                           const double *inertia, const double *stiffness, int n, int want,
-                          arena *a, root_list *list)
+                          arena *a, arena *scratch, root_list *list)
 {
     want = want < n ? want : n;
-    double *mu = arena_doubles(a, (size_t)n);
+    double *mu = arena_doubles(scratch, (size_t)n);
     if (mu == NULL)
         return STRUM_ERR_MEMORY;
     /* graded from its first row on, so that its eigenvalues need no vectors to mend them */
     strum_status status =
-        linalg_symmetric(n, inertia, full, stiffness, full, want, mu, NULL, a);
+        linalg_symmetric(n, inertia, full, stiffness, full, want, mu, NULL, a->work);
     if (status == STRUM_OK)
         status = root_list_grow(list, 2 * want, a);
     const root model = {.symmetry = symmetry};
@@ -73,36 +73,58 @@ static strum_status solve(const strum_cable *cable, strum_symmetry symmetry, int
     return status;
 }
 
+/* Functions first, first + classes, .. : one symmetry class, or all. */
+typedef struct class_of {
+    strum_symmetry symmetry;
+    int first, step;
+    int count, inner; /* functions, and those of the smaller size */
+} class_of;
+
+static strum_status class_roots(const strum_cable *cable, const legendre *b, const class_of *c,
+                                int want, arena *a, arena *scratch, root_list *list,
+                                root_list *inner)
+{
+    const int n = c->count;
+    samples s = {.count = n};
+    strum_status status = sample(cable, b, c->first, c->step, scratch, &s);
+    double *matrices = arena_room(scratch, 2 * (size_t)n * (size_t)n);
+    if (status != STRUM_OK || matrices == NULL)
+        return STRUM_ERR_MEMORY;
+    double *stiffness = matrices + (size_t)n * (size_t)n;
+    status = linalg_gram(n, s.points, s.strain, s.points, stiffness, n, a->work);
+    if (status == STRUM_OK)
+        status = linalg_gram(n, 2 * s.points, s.motion, 2 * s.points, matrices, n, a->work);
+    if (status == STRUM_OK)
+        status = solve(cable, c->symmetry, n, matrices, stiffness, n, want, a, scratch, list);
+    if (status == STRUM_OK && inner != NULL)
+        status = solve(cable, c->symmetry, n, matrices, stiffness, c->inner, want, a, scratch,
+                       inner);
+    return status;
+}
+
 strum_status displacement_roots(const strum_cable *cable, bool by_symmetry, int size, int block,
                                 int want, arena *a, root_list *list, root_list *inner)
 {
     legendre b;
-    const strum_status made = legendre_make(size + 3, M_PI_2 / cable->mu, by_symmetry, a, &b);
-    if (made != STRUM_OK)
-        return made;
+    arena functions = {.work = a->work};
+    strum_status status =
+        legendre_make(size + 3, M_PI_2 / cable->mu, by_symmetry, &functions, &b);
     const int classes = by_symmetry ? 2 : 1;
-    for (int i = 0; i < classes; i++) {
+    for (int i = 0; i < classes && status == STRUM_OK; i++) {
         /* phi_k has the parity of k; u is even in an antisymmetric mode */
-        const strum_symmetry symmetry = !by_symmetry ? STRUM_NO_SYMMETRY
+        const class_of c = {.symmetry = !by_symmetry ? STRUM_NO_SYMMETRY
                                         : i == 0     ? STRUM_ANTISYMMETRIC
-                                                     : STRUM_SYMMETRIC;
-        const int n = (size - i + classes - 1) / classes;
-        samples s = {.count = n};
-        strum_status status = sample(cable, &b, 2 + i, classes, a, &s);
-        double *matrices = arena_room(a, 2 * (size_t)n * (size_t)n);
-        if (status != STRUM_OK || matrices == NULL)
-            return STRUM_ERR_MEMORY;
-        double *stiffness = matrices + (size_t)n * (size_t)n;
-        linalg_gram(n, s.points, s.strain, s.points, stiffness, n);
-        linalg_gram(n, 2 * s.points, s.motion, 2 * s.points, matrices, n);
-        status = solve(cable, symmetry, n, matrices, stiffness, n, want, a, list);
-        if (status == STRUM_OK && inner != NULL)
-            status = solve(cable, symmetry, n, matrices, stiffness,
-                           (block - i + classes - 1) / classes, want, a, inner);
-        if (status != STRUM_OK)
-            return status;
+                                                     : STRUM_SYMMETRIC,
+                            .first = 2 + i,
+                            .step = classes,
+                            .count = (size - i + classes - 1) / classes,
+                            .inner = (block - i + classes - 1) / classes};
+        arena scratch = {.work = a->work};
+        status = class_roots(cable, &b, &c, want, a, &scratch, list, inner);
+        arena_free(&scratch);
     }
-    return STRUM_OK;
+    arena_free(&functions);
+    return status;
 }
 
 /*

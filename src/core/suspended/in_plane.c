@@ -196,12 +196,15 @@ strum_status in_plane_compliance(const strum_cable *cable, const in_plane_frame 
             root_t[i] = sqrt(w * cable->kappa_t * cosh_chi);
     }
     rows w;
+    arena samples = {.work = scratch->work};
     strum_status status = sample_part(f, part, form == IN_PLANE_FORCE_FORM ? f->b->q : f->b->p,
-                                      root_t, root_n, false, scratch, &w);
+                                      root_t, root_n, false, &samples, &w);
     if (status == STRUM_OK)
         status = project(f, part, root_t, root_n, &w, constants, scratch);
     if (status == STRUM_OK)
-        linalg_gram(part->count, w.count, w.data, w.count, compliance, part->count);
+        status = linalg_gram(part->count, w.count, w.data, w.count, compliance, part->count,
+                             scratch->work);
+    arena_free(&samples);
     return status;
 }
 
@@ -227,10 +230,13 @@ static strum_status weighted(double weight_t, double weight_n, int power,
         root[i + points] = sqrt(w * weight_n);
     }
     rows w;
-    const strum_status status =
-        sample_part(f, part, table, root_t, root_n, weight_t == weight_n, scratch, &w);
+    arena samples = {.work = scratch->work};
+    strum_status status =
+        sample_part(f, part, table, root_t, root_n, weight_t == weight_n, &samples, &w);
     if (status == STRUM_OK)
-        linalg_gram(part->count, w.count, w.data, w.count, matrix, part->count);
+        status = linalg_gram(part->count, w.count, w.data, w.count, matrix, part->count,
+                             scratch->work);
+    arena_free(&samples);
     return status;
 }
 

@@ -24,11 +24,13 @@ strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_pl
         in_plane_assembly *m = arena_alloc(a, 1, sizeof *m);
         if (m == NULL)
             return STRUM_ERR_MEMORY;
-        strum_status status = in_plane_assemble(cable, x, symmetry, form, size, a, m);
+        arena scratch = {.work = a->work};
+        strum_status status = in_plane_assemble(cable, x, symmetry, form, size, a, &scratch, m);
         if (status == STRUM_OK)
             status = in_plane_roots(cable, m, form, size, want, vectors, a, list);
         if (status == STRUM_OK && inner != NULL)
             status = in_plane_roots(cable, m, form, block, want, false, a, inner);
+        arena_free(&scratch);
         if (status != STRUM_OK)
             return status;
         if (parts != NULL)
@@ -327,11 +329,9 @@ static strum_status solve(strum_modes *sp, int count, strum_error *fault)
         const bool passable = (stalled || block >= most) && sp->count == count &&
                               sp->difference <= tolerance && sp->tail < 100 * SHAPE_TAIL_MAX;
         if (status == STRUM_OK || (status == STRUM_ERR_ACCURACY && passable))
-            return number_modes(sp);
-        if (status == STRUM_ERR_CANCELLED || status == STRUM_ERR_WORK)
-            return work_error(sp->memory.work, fault);
+            return work_result(sp->memory.work, number_modes(sp), fault);
         if (status != STRUM_ERR_ACCURACY)
-            return error_set(fault, status, "%s", strum_status_text(status));
+            return work_result(sp->memory.work, status, fault);
         arena_free(&sp->memory);
         if (stalled)
             break;
@@ -375,11 +375,12 @@ static strum_status make(const strum_modes_params *params, bool unscaled, work *
     sp->shapes = params->shapes;
     sp->unscaled = unscaled;
     status = solve(sp, params->count, error);
-    sp->memory.work = NULL; /* it ends here */
-    if (status == STRUM_OK)
-        *modes = sp;
-    else
+    if (status != STRUM_OK) {
         strum_modes_free(sp);
+        return status;
+    }
+    sp->memory.work = NULL; /* it ends here */
+    *modes = sp;
     return status;
 }
 

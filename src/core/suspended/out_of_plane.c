@@ -53,15 +53,17 @@ typedef struct class_problem {
 /* Roots of the first `n` unknowns. The matrices are graded: no vectors are needed to mend
  * values. */
 static strum_status class_roots(const strum_cable *cable, const class_problem *c, int n,
-                                int want, bool vectors, arena *a, root_list *list)
+                                int want, bool vectors, arena *a, arena *scratch,
+                                root_list *list)
 {
     const size_t count = (size_t)n;
     want = want < n ? want : n;
-    double *mu = arena_doubles(a, count);
-    double *v = vectors ? arena_doubles(a, count * (size_t)want) : NULL;
+    double *mu = arena_doubles(scratch, count);
+    double *v = vectors ? arena_doubles(scratch, count * (size_t)want) : NULL;
     if (mu == NULL || (vectors && v == NULL))
         return STRUM_ERR_MEMORY;
-    strum_status status = linalg_symmetric(n, c->a, c->count, c->k, c->count, want, mu, v, a);
+    strum_status status =
+        linalg_symmetric(n, c->a, c->count, c->k, c->count, want, mu, v, a->work);
     if (status == STRUM_OK)
         status = root_list_grow(list, 2 * want, a);
     for (int i = 0; status == STRUM_OK && i < want && mu[i] > 1e-14 * mu[0]; i++) {
@@ -119,16 +121,17 @@ static strum_status class_make(const legendre *b, const double *value, const dou
         if (force_form && c->symmetry != STRUM_SYMMETRIC)
             remove_constant(b->points, value, w + j * points);
     }
-    linalg_gram(c->count, b->points, w, b->points, c->a, c->count);
+    strum_status status =
+        linalg_gram(c->count, b->points, w, b->points, c->a, c->count, a->work);
     c->k = identity ? NULL : c->a + count * count;
-    for (size_t j = 0; j < count && !identity; j++) {
+    for (size_t j = 0; j < count && !identity && status == STRUM_OK; j++) {
         const double *p = b->p + (size_t)c->index[j] * points;
         for (size_t i = 0; i < points; i++)
             w[i + j * points] = slope[i] * p[i];
     }
-    if (!identity)
-        linalg_gram(c->count, b->points, w, b->points, c->k, c->count);
-    return STRUM_OK;
+    if (!identity && status == STRUM_OK)
+        status = linalg_gram(c->count, b->points, w, b->points, c->k, c->count, a->work);
+    return status;
 }
 
 strum_status out_of_plane_roots(const strum_cable *cable, const mapping *x, bool force_form,
@@ -139,21 +142,25 @@ strum_status out_of_plane_roots(const strum_cable *cable, const mapping *x, bool
     const bool identity = !force_form && cable->kappa_n == 0 && x->stretch == 0;
     legendre b;
     double *value, *slope;
-    strum_status status = legendre_make(size, mapping_singularity(x), level, a, &b);
+    arena functions = {.work = a->work};
+    strum_status status = legendre_make(size, mapping_singularity(x), level, &functions, &b);
     if (status == STRUM_OK)
-        status = weigh(cable, x, force_form, &b, a, &value, &slope);
+        status = weigh(cable, x, force_form, &b, &functions, &value, &slope);
     const strum_symmetry first = level ? STRUM_SYMMETRIC : STRUM_NO_SYMMETRY;
     const strum_symmetry last = level ? STRUM_ANTISYMMETRIC : STRUM_NO_SYMMETRY;
     for (strum_symmetry symmetry = first; status == STRUM_OK && symmetry <= last; symmetry++) {
         class_problem c = {.symmetry = symmetry};
-        status = class_make(&b, value, slope, force_form, identity, a, &c);
+        arena scratch = {.work = a->work};
+        status = class_make(&b, value, slope, force_form, identity, &scratch, &c);
         if (status == STRUM_OK)
-            status = class_roots(cable, &c, c.count, want, vectors, a, list);
+            status = class_roots(cable, &c, c.count, want, vectors, a, &scratch, list);
         int n = 0;
-        while (n < c.count && c.index[n] < block)
+        while (status == STRUM_OK && n < c.count && c.index[n] < block)
             n++;
         if (status == STRUM_OK && inner != NULL)
-            status = class_roots(cable, &c, n, want, false, a, inner);
+            status = class_roots(cable, &c, n, want, false, a, &scratch, inner);
+        arena_free(&scratch);
     }
+    arena_free(&functions);
     return status;
 }

@@ -39,18 +39,16 @@ strum_status root_list_grow(root_list *list, int more, arena *a)
     return STRUM_OK;
 }
 
-strum_status in_plane_assemble(const strum_cable *cable, const mapping *x,
-                               strum_symmetry symmetry, in_plane_form form, int size, arena *a,
-                               in_plane_assembly *out)
+/* in_plane_assemble once the part is made; `functions` may be freed afterwards. */
+static strum_status assemble(const strum_cable *cable, const mapping *x, in_plane_form form,
+                             int size, arena *functions, arena *a, in_plane_assembly *out)
 {
     legendre b;
     in_plane_frame frame;
-    strum_status status =
-        legendre_make(size, mapping_singularity(x), symmetry != STRUM_NO_SYMMETRY, a, &b);
+    strum_status status = legendre_make(size, mapping_singularity(x),
+                                        out->part.symmetry != STRUM_NO_SYMMETRY, functions, &b);
     if (status == STRUM_OK)
-        status = in_plane_frame_make(x, &b, a, &frame);
-    if (status == STRUM_OK)
-        status = in_plane_part_make(symmetry, form, size, a, &out->part);
+        status = in_plane_frame_make(x, &b, functions, &frame);
     if (status != STRUM_OK)
         return status;
     const size_t n = (size_t)out->part.count;
@@ -74,6 +72,18 @@ strum_status in_plane_assemble(const strum_cable *cable, const mapping *x,
     if (status == STRUM_OK)
         status = in_plane_inertia(cable->eta_t, cable->eta_n, &frame, &out->part, form,
                                   out->damping, a);
+    return status;
+}
+
+strum_status in_plane_assemble(const strum_cable *cable, const mapping *x,
+                               strum_symmetry symmetry, in_plane_form form, int size, arena *a,
+                               arena *scratch, in_plane_assembly *out)
+{
+    arena functions = {.work = a->work};
+    strum_status status = in_plane_part_make(symmetry, form, size, a, &out->part);
+    if (status == STRUM_OK)
+        status = assemble(cable, x, form, size, &functions, scratch, out);
+    arena_free(&functions);
     return status;
 }
 
@@ -110,18 +120,18 @@ static strum_status append_symmetric(double rate, int n, int want, const double 
 
 /* Complementary form, undamped or proportionally damped: A f = (1/w^2) K f. */
 static strum_status complementary_roots(const strum_cable *cable, const in_plane_assembly *m,
-                                        int n, int want, bool vectors, arena *a,
+                                        int n, int want, bool vectors, arena *a, arena *scratch,
                                         root_list *list)
 {
     const int full = m->part.count;
     want = want < n ? want : n;
     const bool need = vectors || want > LINALG_POLISH_FROM;
-    double *mu = arena_doubles(a, (size_t)n);
-    double *v = need ? arena_doubles(a, (size_t)n * (size_t)want) : NULL;
+    double *mu = arena_doubles(scratch, (size_t)n);
+    double *v = need ? arena_doubles(scratch, (size_t)n * (size_t)want) : NULL;
     if (mu == NULL || (need && v == NULL))
         return STRUM_ERR_MEMORY;
     strum_status status =
-        linalg_symmetric(n, m->compliance, full, m->complementary, full, want, mu, v, a);
+        linalg_symmetric(n, m->compliance, full, m->complementary, full, want, mu, v, a->work);
     if (status != STRUM_OK)
         return status;
     const root model = {.symmetry = m->part.symmetry};
@@ -159,31 +169,33 @@ static double _Complex polish_root(int n, const double *c, const double *m,
  *
  * Mixed form: with A = LL' and g = L'f, z = 1/s solves z^2 g + z L'DL g + L'ML g = 0. */
 static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vectors,
-                                    bool polish, arena *a, root_list *list)
+                                    bool polish, arena *a, arena *scratch, root_list *list)
 {
     const int full = m->part.count;
     const size_t size = (size_t)n;
-    double *block = arena_doubles(a, size * size), *l = arena_doubles(a, size * size);
-    double *half = arena_doubles(a, size * size);
+    double *block = arena_doubles(scratch, size * size);
+    double *l = arena_doubles(scratch, size * size),
+           *half = arena_doubles(scratch, size * size);
     if (block == NULL || l == NULL || half == NULL)
         return STRUM_ERR_MEMORY;
     for (size_t j = 0; j < size; j++)
         memcpy(block + j * size, m->compliance + j * (size_t)full, size * sizeof *block);
     int r;
-    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a);
+    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a->work);
     if (status != STRUM_OK)
         return status;
     const size_t rank = (size_t)r;
-    double *c = arena_doubles(a, rank * rank), *mass = arena_doubles(a, rank * rank);
-    double _Complex *z = arena_alloc(a, 2 * rank, sizeof *z);
-    double _Complex *g = polish ? arena_alloc(a, 2 * rank * rank, sizeof *g) : NULL;
+    double *c = arena_doubles(scratch, rank * rank),
+           *mass = arena_doubles(scratch, rank * rank);
+    double _Complex *z = arena_alloc(scratch, 2 * rank, sizeof *z);
+    double _Complex *g = polish ? arena_alloc(scratch, 2 * rank * rank, sizeof *g) : NULL;
     if (c == NULL || mass == NULL || z == NULL || (polish && g == NULL))
         return STRUM_ERR_MEMORY;
-    linalg_multiply('N', 'N', n, r, n, m->damping, full, l, n, half, n);
-    linalg_multiply('T', 'N', r, r, n, l, n, half, n, c, r);
-    linalg_multiply('N', 'N', n, r, n, m->mass, full, l, n, half, n);
-    linalg_multiply('T', 'N', r, r, n, l, n, half, n, mass, r);
-    status = linalg_quadratic(r, c, mass, z, g, a);
+    status = linalg_project(n, r, m->damping, full, l, half, c, a->work);
+    if (status == STRUM_OK)
+        status = linalg_project(n, r, m->mass, full, l, half, mass, a->work);
+    if (status == STRUM_OK)
+        status = linalg_quadratic(r, c, mass, z, g, a->work);
     if (status == STRUM_OK)
         status = root_list_grow(list, 2 * r, a);
     double largest = 0;
@@ -193,6 +205,9 @@ static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vect
         /* of a conjugate pair the one with Im s > 0; z near 0 is rounding of an infinite s */
         if (cimag(z[k]) > 0 || cabs(z[k]) < 1e-12 * largest)
             continue;
+        status = work_poll(a->work);
+        if (status != STRUM_OK)
+            break;
         root found = {.symmetry = m->part.symmetry};
         const double _Complex *gk = polish ? g + k * rank : NULL;
         found.s = 1 / (polish ? polish_root(r, c, mass, gk, z[k]) : z[k]);
@@ -223,27 +238,28 @@ static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vect
 
 /* Mixed form without damping that is not proportional: L'ML g = (1/w^2) g. */
 static strum_status mixed_roots(const strum_cable *cable, const in_plane_assembly *m, int n,
-                                int want, arena *a, root_list *list)
+                                int want, arena *a, arena *scratch, root_list *list)
 {
     const int full = m->part.count;
     const size_t size = (size_t)n;
-    double *block = arena_doubles(a, size * size), *l = arena_doubles(a, size * size);
-    double *half = arena_doubles(a, size * size), *mu = arena_doubles(a, size);
+    double *block = arena_doubles(scratch, size * size), *mu = arena_doubles(scratch, size);
+    double *l = arena_doubles(scratch, size * size),
+           *half = arena_doubles(scratch, size * size);
     if (block == NULL || l == NULL || half == NULL || mu == NULL)
         return STRUM_ERR_MEMORY;
     for (size_t j = 0; j < size; j++)
         memcpy(block + j * size, m->compliance + j * (size_t)full, size * sizeof *block);
     int r;
-    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a);
+    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a->work);
     if (status != STRUM_OK)
         return status;
-    linalg_multiply('N', 'N', n, r, n, m->mass, full, l, n, half, n);
-    linalg_multiply('T', 'N', r, r, n, l, n, half, n, block, r);
+    status = linalg_project(n, r, m->mass, full, l, half, block, a->work);
     want = want < r ? want : r;
-    double *v = arena_doubles(a, (size_t)r * (size_t)want);
+    double *v = arena_doubles(scratch, (size_t)r * (size_t)want);
     if (v == NULL)
         return STRUM_ERR_MEMORY;
-    status = linalg_symmetric(r, block, r, NULL, 0, want, mu, v, a);
+    if (status == STRUM_OK)
+        status = linalg_symmetric(r, block, r, NULL, 0, want, mu, v, a->work);
     const root model = {.symmetry = m->part.symmetry};
     return status == STRUM_OK ? append_symmetric(cable->eta_t / cable->mass_t, r, want, mu,
                                                  NULL, &model, a, list)
@@ -254,12 +270,17 @@ strum_status in_plane_roots(const strum_cable *cable, const in_plane_assembly *m
                             in_plane_form form, int size, int want, bool vectors, arena *a,
                             root_list *list)
 {
+    arena scratch = {.work = a->work};
+    strum_status status;
     int n = 0;
     while (n < m->part.count && m->part.index[n] < size)
         n++;
     if (!in_plane_proportional(cable))
-        return quadratic_roots(m, n, vectors, n == m->part.count, a, list);
-    return form == IN_PLANE_FORCE_FORM
-               ? complementary_roots(cable, m, n, want, vectors, a, list)
-               : mixed_roots(cable, m, n, want, a, list);
+        status = quadratic_roots(m, n, vectors, n == m->part.count, a, &scratch, list);
+    else if (form == IN_PLANE_FORCE_FORM)
+        status = complementary_roots(cable, m, n, want, vectors, a, &scratch, list);
+    else
+        status = mixed_roots(cable, m, n, want, a, &scratch, list);
+    arena_free(&scratch);
+    return status;
 }

@@ -38,9 +38,10 @@ typedef struct in_plane_assembly {
  * the modes. */
 bool in_plane_proportional(const strum_cable *cable);
 
+/* The part is memory of `a`, the matrices and constants of `scratch`. */
 strum_status in_plane_assemble(const strum_cable *cable, const mapping *x,
                                strum_symmetry symmetry, in_plane_form form, int size, arena *a,
-                               in_plane_assembly *assembly);
+                               arena *scratch, in_plane_assembly *assembly);
 
 /* Roots of the leading block of unknowns with k < size: the `want` lowest where the problem is
  * symmetric, all of them where it is quadratic. Appended to `list`; memory is the arena's. */

@@ -78,7 +78,9 @@ static double refine(void *data, double low, double high, double *x)
  * at once: the functions at a sample cost as much as a mode's sum of them. */
 strum_status spectrum_normalise(strum_modes *sp)
 {
-    arena scratch = {0};
+    work *w = sp->memory.work;
+    arena scratch = {.work = w};
+    strum_status status = STRUM_OK;
     const size_t samples = 2 * (size_t)sp->size + 1, count = (size_t)sp->count;
     double *table = arena_doubles(&scratch, 2 * (size_t)sp->size);
     double *values = arena_doubles(&scratch, 2 * samples * count);
@@ -87,8 +89,9 @@ strum_status spectrum_normalise(strum_modes *sp)
         arena_free(&scratch);
         return STRUM_ERR_MEMORY;
     }
-    for (size_t i = 0; i < samples; i++) {
+    for (size_t i = 0; i < samples && status == STRUM_OK; i++) {
         const double x = 2.0 * (double)i / (double)(samples - 1) - 1;
+        status = work_poll(w);
         legendre_at_with(sp->factors, x, sp->size, table, table + sp->size);
         for (size_t k = 0; k < count; k++) {
             strum_shape_point point;
@@ -97,8 +100,9 @@ strum_status spectrum_normalise(strum_modes *sp)
             values[i + (2 * k + 1) * samples] = cabs(point.normal);
         }
     }
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count && status == STRUM_OK; k++) {
         double largest = 0;
+        status = work_poll(w);
         for (int number = 1; number >= 0; number--) {
             component c = {.sp = sp, .index = (int)k, .number = number, .table = table};
             double x;
@@ -111,7 +115,7 @@ strum_status spectrum_normalise(strum_modes *sp)
         }
     }
     arena_free(&scratch);
-    return STRUM_OK;
+    return status;
 }
 
 strum_status strum_modes_shape(const strum_modes *sp, size_t index, const double *chi,

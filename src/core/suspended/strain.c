@@ -135,35 +135,52 @@ static strum_status prepare(strain_problem *s, arena *a)
     return reflect(s, a);
 }
 
-strum_status strain_roots(const strum_cable *cable, const mapping *x, int size, int want,
-                          arena *a, root_list *list)
+static strum_status make_roots(const strum_cable *cable, const mapping *x, int size, int want,
+                               arena *scratch, arena *a, root_list *list)
 {
     const bool elastic = cable->kappa_t > 0;
     strain_problem s = {.cable = cable, .along = x, .size = size, .first = elastic ? 0 : 1};
     s.columns = elastic ? 2 * size : size - 1;
-    strum_status status = prepare(&s, a);
+    strum_status status = prepare(&s, scratch);
     if (status != STRUM_OK)
         return status;
     const size_t points = (size_t)s.b.points, n = (size_t)s.columns, rows = 2 * points + 1;
-    double *strain = arena_doubles(a, rows * n), *motion = arena_doubles(a, rows * n);
-    double *k_matrix = arena_doubles(a, n * n), *m_matrix = arena_doubles(a, n * n);
-    double *mu = arena_doubles(a, n), *v = arena_doubles(a, n * n);
-    double *u = arena_doubles(a, 2 * points);
+    want = want < s.columns ? want : s.columns;
+    double *strain = arena_doubles(scratch, rows * n),
+           *motion = arena_doubles(scratch, rows * n);
+    double *k_matrix = arena_doubles(scratch, n * n), *m_matrix = arena_doubles(scratch, n * n);
+    double *mu = arena_doubles(scratch, n), *v = arena_doubles(scratch, n * (size_t)want);
+    double *u = arena_doubles(scratch, 2 * points);
     if (strain == NULL || motion == NULL || k_matrix == NULL || m_matrix == NULL ||
         mu == NULL || v == NULL || u == NULL)
         return STRUM_ERR_MEMORY;
-    for (int j = 0; j < s.columns; j++)
+    for (int j = 0; j < s.columns && status == STRUM_OK; j++) {
         sample(&s, j, u, u + points, strain + (size_t)j * rows, motion + (size_t)j * rows);
-    linalg_gram(s.columns, (int)rows, strain, (int)rows, k_matrix, s.columns);
-    linalg_gram(s.columns, (int)rows, motion, (int)rows, m_matrix, s.columns);
-    want = want < s.columns ? want : s.columns;
-    status =
-        linalg_symmetric(s.columns, m_matrix, s.columns, k_matrix, s.columns, want, mu, v, a);
+        status = work_poll(a->work);
+    }
+    if (status == STRUM_OK)
+        status =
+            linalg_gram(s.columns, (int)rows, strain, (int)rows, k_matrix, s.columns, a->work);
+    if (status == STRUM_OK)
+        status =
+            linalg_gram(s.columns, (int)rows, motion, (int)rows, m_matrix, s.columns, a->work);
+    if (status == STRUM_OK)
+        status = linalg_symmetric(s.columns, m_matrix, s.columns, k_matrix, s.columns, want, mu,
+                                  v, a->work);
     if (status == STRUM_OK)
         status = root_list_grow(list, want, a);
     for (int i = 0; status == STRUM_OK && i < want; i++) {
         const root r = {.symmetry = STRUM_NO_SYMMETRY};
         roots_of_natural(1 / sqrt(mu[i]), 0, &r, list);
     }
+    return status;
+}
+
+strum_status strain_roots(const strum_cable *cable, const mapping *x, int size, int want,
+                          arena *a, root_list *list)
+{
+    arena scratch = {.work = a->work};
+    const strum_status status = make_roots(cable, x, size, want, &scratch, a, list);
+    arena_free(&scratch);
     return status;
 }

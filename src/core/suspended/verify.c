@@ -106,8 +106,11 @@ strum_status strum_modes_verify(const strum_modes *sp, const strum_options *opti
     strum_status status = table == NULL ? STRUM_ERR_MEMORY : STRUM_OK;
     for (int i = 0; status == STRUM_OK && i < sp->count; i++) {
         double residual;
-        status = closure(sp, i, table, &residual);
-        v->max_residual = fmax(v->max_residual, residual);
+        status = work_poll(&spent);
+        if (status == STRUM_OK)
+            status = closure(sp, i, table, &residual);
+        if (status == STRUM_OK)
+            v->max_residual = fmax(v->max_residual, residual);
     }
     /* the second method may need more functions than the first; it shows by disagreeing */
     int size = sp->size;
@@ -121,8 +124,5 @@ strum_status strum_modes_verify(const strum_modes *sp, const strum_options *opti
         size = (int)(1.4 * size);
     }
     arena_free(&a);
-    if (status == STRUM_OK)
-        return status;
-    return spent.status != STRUM_OK ? work_error(&spent, fault)
-                                    : error_set(fault, status, "%s", strum_status_text(status));
+    return work_result(&spent, status, fault);
 }

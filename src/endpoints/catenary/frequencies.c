@@ -165,8 +165,9 @@ static void write_shape(json_writer *json, const cable_input *in, strum_plane pl
 }
 
 static bool write_modes(json_writer *json, const request *r, strum_plane plane,
-                        const plane_modes *found, problem *p)
+                        const plane_modes *found, answer *a)
 {
+    problem *p = a->problem;
     const int points = (int)r->shape_points;
     strum_shape_point *shape = points > 0 ? calloc((size_t)points, sizeof *shape) : NULL;
     if (points > 0 && shape == NULL) {
@@ -188,6 +189,8 @@ static bool write_modes(json_writer *json, const request *r, strum_plane plane,
                 write_shape(json, &r->in, plane, shape, points);
         }
         json_close_object(json);
+        if (answer_cancelled(a))
+            status = STRUM_ERR_CANCELLED;
     }
     json_close_array(json);
     free(shape);
@@ -351,7 +354,7 @@ static bool answer_modes(const void *data, answer *a)
     cable_write_geometry(json, &r->in);
     for (int plane = 0; plane < 2 && good; plane++)
         if (found[plane].count > 0)
-            good = write_modes(json, r, (strum_plane)plane, &found[plane], a->problem);
+            good = write_modes(json, r, (strum_plane)plane, &found[plane], a);
     if (good)
         write_overdamped(json, r, found);
     if (good && r->shape_points > 0)

@@ -472,9 +472,9 @@ void chain_write_root(json_writer *json, const strum_taut_root *root)
 void chain_refuse(const strum_error *fault, strum_status status, problem *p)
 {
     const char *reason = fault->reason[0] != '\0' ? fault->reason : strum_status_text(status);
-    const int http = status == STRUM_ERR_MEMORY || status == STRUM_ERR_CANCELLED ? 503
-                     : status == STRUM_ERR_INTERNAL                              ? 500
-                                                                                 : 422;
+    const bool later =
+        status == STRUM_ERR_MEMORY || status == STRUM_ERR_CANCELLED || status == STRUM_ERR_TIME;
+    const int http = later ? 503 : status == STRUM_ERR_INTERNAL ? 500 : 422;
     problem_set(p, http, "%s", reason);
     if (http == 422 && fault->argument == STRUM_TAUT_ARG_COMPONENTS &&
         fault->index != STRUM_NO_INDEX) {

@@ -18,6 +18,7 @@ void cable_refuse(const strum_error *fault, strum_status status, problem *p)
     const int http = status == STRUM_ERR_MEMORY      ? 503
                      : status == STRUM_ERR_INTERNAL  ? 500
                      : status == STRUM_ERR_CANCELLED ? 503
+                     : status == STRUM_ERR_TIME      ? 503
                                                      : 422;
     problem_set(p, http, "%s", reason);
 }

@@ -123,7 +123,7 @@ static void write_shape(json_writer *json, const inclined_request *r,
 }
 
 static strum_status write_modes(json_writer *json, const inclined_request *r,
-                                const strum_inclined *modes)
+                                const strum_inclined *modes, const answer *a)
 {
     const size_t points = (size_t)r->shape_points;
     strum_inclined_point *shape = points > 0 ? calloc(points, sizeof *shape) : NULL;
@@ -143,6 +143,8 @@ static strum_status write_modes(json_writer *json, const inclined_request *r,
         if (points > 0 && status == STRUM_OK)
             write_shape(json, r, shape);
         json_close_object(json);
+        if (answer_cancelled(a))
+            status = STRUM_ERR_CANCELLED;
     }
     json_close_array(json);
     free(shape);
@@ -317,7 +319,7 @@ static strum_status write_result(const inclined_request *r, strum_inclined *cons
     write_crossover(json, r);
     if (strum_inclined_spurious(modes) > 0)
         json_put_number(json, "spurious_kl_over_pi", strum_inclined_spurious(modes) / M_PI);
-    status = write_modes(json, r, modes);
+    status = write_modes(json, r, modes, a);
     if (status == STRUM_OK && r->compare)
         status = write_comparison(json, r, solved);
     if (status == STRUM_OK && r->verify)

@@ -430,8 +430,8 @@ static void stop_each(bool in_plane, bool out_of_plane)
         out_of_plane};
     strum_error fault;
     stop s = {.after = 0};
-    const strum_options options = {stopped, &s, 0};
-    for (;; s.after++) {
+    const strum_options options = {.cancelled = stopped, .context = &s};
+    for (;; s.after += 1 + s.after / 4) { /* far apart where there are many */
         strum_forced *forced;
         s.asked = 0;
         const strum_status status = strum_forced_solve(&params, &options, &forced, &fault);

@@ -473,10 +473,10 @@ static void a_solve_can_be_stopped_anywhere(void **state)
         strum_error error;
         strum_verification v;
         stop s = {.after = 0};
-        const strum_options options = {after_some_questions, &s, 0},
+        const strum_options options = {.cancelled = after_some_questions, .context = &s},
                             little = {.work_max = 1e-3};
         strum_status status = STRUM_ERR_CANCELLED;
-        for (; status != STRUM_OK; s.after++) {
+        for (; status != STRUM_OK; s.after += 1 + s.after / 4) {
             s.asked = 0;
             status = strum_modes_solve(&kinds[k], &options, &modes, &error);
             assert_true(status == STRUM_OK || (status == STRUM_ERR_CANCELLED && modes == NULL));
@@ -497,7 +497,7 @@ static void a_heavy_solve_stops_in_time(void **state)
     (void)state;
     strum_modes_params params = {plain(-12.5, 12.5), STRUM_IN_PLANE, 200, true};
     stop s = {0};
-    const strum_options options = {after_some_time, &s, 0};
+    const strum_options options = {.cancelled = after_some_time, .context = &s};
     for (int damped = 0; damped < 2; damped++) {
         strum_modes *modes;
         strum_error error;

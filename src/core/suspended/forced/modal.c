@@ -67,14 +67,15 @@ static strum_status make_shares(forced_part *p, arena *a)
 }
 
 static strum_status make_part(const strum_cable *cable, const mapping *x,
-                              strum_symmetry symmetry, int size, arena *a, forced_part *part)
+                              strum_symmetry symmetry, int size, arena *a, arena *scratch,
+                              forced_part *part)
 {
     legendre b;
     in_plane_frame frame;
     strum_status status =
-        legendre_make(size, mapping_singularity(x), symmetry != STRUM_NO_SYMMETRY, a, &b);
+        legendre_make(size, mapping_singularity(x), symmetry != STRUM_NO_SYMMETRY, scratch, &b);
     if (status == STRUM_OK)
-        status = in_plane_frame_make(x, &b, a, &frame);
+        status = in_plane_frame_make(x, &b, scratch, &frame);
     if (status == STRUM_OK)
         status = in_plane_part_make(symmetry, IN_PLANE_FORCE_FORM, size, a, &part->part);
     if (status != STRUM_OK)
@@ -86,23 +87,23 @@ static strum_status make_part(const strum_cable *cable, const mapping *x,
     part->phi = arena_room(a, n * n);
     part->mu = arena_doubles(a, n);
     part->constants.from_unknowns = arena_doubles(a, 2 * n);
-    double *k = arena_room(a, n * n);
+    double *k = arena_room(scratch, n * n);
     if (part->compliance == NULL || part->along == NULL || part->across == NULL ||
         part->phi == NULL || part->mu == NULL || part->constants.from_unknowns == NULL ||
         k == NULL)
         return STRUM_ERR_MEMORY;
     status = in_plane_compliance(cable, &frame, &part->part, IN_PLANE_FORCE_FORM,
-                                 part->compliance, &part->constants, a);
+                                 part->compliance, &part->constants, scratch);
     if (status == STRUM_OK)
-        status = in_plane_complementary(1, 0, &frame, &part->part, part->along, a);
+        status = in_plane_complementary(1, 0, &frame, &part->part, part->along, scratch);
     if (status == STRUM_OK)
-        status = in_plane_complementary(0, 1, &frame, &part->part, part->across, a);
+        status = in_plane_complementary(0, 1, &frame, &part->part, part->across, scratch);
     if (status != STRUM_OK)
         return status;
     for (size_t i = 0; i < n * n; i++)
         k[i] = part->along[i] / cable->mass_t + part->across[i] / cable->mass_n;
     status = linalg_symmetric((int)n, part->compliance, (int)n, k, (int)n, (int)n, part->mu,
-                              part->phi, a);
+                              part->phi, scratch->work);
     return status == STRUM_OK ? make_shares(part, a) : status;
 }
 
@@ -145,11 +146,13 @@ static strum_status make_at_size(strum_forced *f, int size, work *w)
         status = work_spend(w, part_us(level ? size : 2.0 * size));
         if (status != STRUM_OK)
             return status;
+        arena scratch = {.work = w};
         status = make_part(&f->cable, &f->coordinate,
                            !level   ? STRUM_NO_SYMMETRY
                            : i == 0 ? STRUM_SYMMETRIC
                                     : STRUM_ANTISYMMETRIC,
-                           size, &f->memory, &f->parts[i]);
+                           size, &f->memory, &scratch, &f->parts[i]);
+        arena_free(&scratch);
     }
     if (status == STRUM_OK && f->out_of_plane) {
         status = work_spend(w, part_us(size));
@@ -180,9 +183,11 @@ static strum_status tail(const strum_forced *f, double *error)
     for (int direction = 0; direction < 2 && status == STRUM_OK; direction++) {
         const strum_end_motion motion = {direction == 0, direction == 1, f->out_of_plane};
         double frequency = f->frequency_max;
-        do
-            status = strum_response_solve(r, frequency, &motion, NULL);
-        while (status == STRUM_ERR_METHOD && (frequency *= 1 - 1e-3) > 0);
+        do {
+            status = work_poll(f->memory.work);
+            if (status == STRUM_OK)
+                status = strum_response_solve(r, frequency, &motion, NULL);
+        } while (status == STRUM_ERR_METHOD && (frequency *= 1 - 1e-3) > 0);
         for (int i = 0; i < 2 && f->in_plane; i++)
             for (int half = 0; half < 2; half++)
                 *error = fmax(*error, tail_of(r->v[i][half], f->size));
@@ -209,14 +214,10 @@ static strum_status grow(strum_forced *f, mapping along, int modes, work *w,
         strum_status status = make_at_size(f, (int)size, w);
         if (status == STRUM_OK)
             status = tail(f, &error);
-        if (status == STRUM_ERR_CANCELLED || status == STRUM_ERR_WORK)
-            return work_error(w, error_out);
+        if (status == STRUM_OK && error < TAIL_MAX)
+            return work_result(w, forced_naturals_make(f), error_out);
         if (status != STRUM_OK)
-            return error_set(error_out, status, "%s", strum_status_text(status));
-        if (error < TAIL_MAX)
-            return forced_naturals_make(f) == STRUM_OK
-                       ? STRUM_OK
-                       : error_set(error_out, STRUM_ERR_MEMORY, "out of memory");
+            return work_result(w, status, error_out);
         arena_free(&f->memory);
         /* rounding, not size, stands in the way once a larger size helps no more */
         if (error < 1e-8 && error > before / 2)
@@ -273,16 +274,19 @@ strum_status strum_forced_solve(const strum_forced_params *params, const strum_o
         return error_set(error, STRUM_ERR_MEMORY, "out of memory");
     work w = work_begin(options);
     f->references = 1;
+    f->memory.work = &w;
     f->cable = params->cable;
     f->frequency_max = params->frequency_max;
     f->in_plane = params->in_plane;
     f->out_of_plane = params->out_of_plane;
     f->proportional = in_plane_proportional(&params->cable);
     status = make(f, &w, error);
-    if (status == STRUM_OK)
-        *forced = f;
-    else
+    if (status != STRUM_OK) {
         strum_forced_free(f);
+        return status;
+    }
+    f->memory.work = NULL; /* it ends here */
+    *forced = f;
     return status;
 }
 
@@ -340,9 +344,7 @@ static strum_status solve_damped(const forced_part *p, const double _Complex d[2
     for (size_t i = 0; i < (size_t)n * (size_t)n; i++)
         z[i] = p->compliance[i] + p->along[i] * response->inverse_t +
                p->across[i] * response->inverse_n;
-    arena scratch = {0};
-    const strum_status status = linalg_complex_solve(n, z, r, &scratch);
-    arena_free(&scratch);
+    const strum_status status = linalg_complex_solve(n, z, r, NULL);
     for (int half = 0; half < 2 && status == STRUM_OK; half++) {
         for (int j = 0; j < n; j++)
             response->work[j] = half == 0 ? creal(r[j]) : cimag(r[j]);

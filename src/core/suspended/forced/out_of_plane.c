@@ -19,16 +19,16 @@
 #include "core/suspended/forced/modal.h"
 #include "core/numerics/linalg.h"
 
-strum_status forced_out_of_plane_make(strum_forced *f)
+static strum_status make(strum_forced *f, arena *scratch)
 {
     arena *a = &f->memory;
     legendre b;
     strum_status status =
-        legendre_make(f->size, mapping_singularity(&f->coordinate), false, a, &b);
+        legendre_make(f->size, mapping_singularity(&f->coordinate), false, scratch, &b);
     if (status != STRUM_OK)
         return status;
     const size_t n = (size_t)f->size - 1, points = (size_t)b.points;
-    double *w = arena_room(a, 2 * points * n), *m = arena_room(a, 2 * n * n);
+    double *w = arena_room(scratch, 2 * points * n), *m = arena_room(scratch, 2 * n * n);
     f->out_nu = arena_doubles(a, n);
     f->out_v = arena_room(a, n * n);
     f->out_inertia = arena_doubles(a, 2 * n);
@@ -49,9 +49,21 @@ strum_status forced_out_of_plane_make(strum_forced *f)
             f->out_inertia[j] += inertia * q * (1 + b.x[i]) / 2;
             f->out_stretch[j] += stiffness * p / 2;
         }
-    linalg_gram((int)n, b.points, w, b.points, m, (int)n);
-    linalg_gram((int)n, b.points, slopes, b.points, k, (int)n);
-    return linalg_symmetric((int)n, m, (int)n, k, (int)n, (int)n, f->out_nu, f->out_v, a);
+    status = linalg_gram((int)n, b.points, w, b.points, m, (int)n, scratch->work);
+    if (status == STRUM_OK)
+        status = linalg_gram((int)n, b.points, slopes, b.points, k, (int)n, scratch->work);
+    if (status == STRUM_OK)
+        status = linalg_symmetric((int)n, m, (int)n, k, (int)n, (int)n, f->out_nu, f->out_v,
+                                  scratch->work);
+    return status;
+}
+
+strum_status forced_out_of_plane_make(strum_forced *f)
+{
+    arena scratch = {.work = f->memory.work};
+    const strum_status status = make(f, &scratch);
+    arena_free(&scratch);
+    return status;
 }
 
 /* v.(R g - l) */

@@ -107,11 +107,11 @@ strum_status strum_forced_shoot(const strum_cable *cable, double frequency,
     const double _Complex s = CMPLX(0, frequency);
     system_data data = {cable, s * (cable->mass_t * s + cable->eta_t),
                         s * (cable->mass_n * s + cable->eta_n)};
-    arena memory = {0};
     work spent = work_begin(options);
+    arena memory = {.work = &spent};
     double *states = arena_doubles(&memory, (count + 1) * STATE);
     if (states == NULL)
-        return error_set(error, STRUM_ERR_MEMORY, "out of memory");
+        return work_result(&spent, STRUM_ERR_MEMORY, error);
     const strum_status status = integrate(&data, points, count, states, &spent);
     if (status != STRUM_OK) {
         arena_free(&memory);
