@@ -94,14 +94,14 @@ static void check_call(call what, const strum_taut *chain)
     double whole, figure;
     assert_int_equal(what(chain, NULL, &whole), STRUM_OK);
     asked a = {0, 1 << 30};
-    const strum_options never = {stop, &a, 0.0};
+    const strum_options never = {.cancelled = stop, .context = &a};
     assert_int_equal(what(chain, &never, &figure), STRUM_OK);
     assert_true(figure == whole);
     const int places = a.times;
     assert_true(places > 0);
     for (int k = 0; k < places; k += 1 + k / 8) {
         a = (asked){0, k};
-        const strum_options here = {stop, &a, 0.0};
+        const strum_options here = {.cancelled = stop, .context = &a};
         assert_int_equal(what(chain, &here, &figure), STRUM_ERR_CANCELLED);
         assert_true(isnan(figure));
     }
