@@ -6,7 +6,7 @@
 # One would guess: shift and invert needs no inverse of the mass matrix, which may be singular; ten masses have ten modes, and the first of
 #   them is a small problem.
 # What happens: "ARPACK error -9999: Could not build an Arnoldi factorization ... enough workspace and array storage". It is neither: eigsh
-#   takes at least ncv = 20 vectors by itself, and a basis of more vectors than there are masses does not exist. With ncv up to the number of
+#   takes at least ncv = 20 vectors by itself, and a basis of more vectors than there are masses cannot be. With ncv up to the number of
 #   masses all is right to 14 digits, with one more it fails. 20 masses work as they are, 19 do not.
 # What follows: give ncv (at most the number of masses); what the message proposes, more workspace, makes it worse.
 # Seen with SciPy 1.10.1 (Debian 12), which has ARPACK inside, on 2026-11-28.

@@ -6,7 +6,7 @@
 # One would guess: LSODA, which chooses between Adams' and Gear's formulas by itself, is solve_ivp's safe choice; its error at a loose
 #   tolerance looks like that of the others, which take some per cent from the amplitude: too much damping, which is easily seen.
 # What happens: at solve_ivp's own tolerances (rtol 1e-3, atol 1e-6) the amplitude grows, from 1 to 1.04 in ten periods, 1.45 in a hundred,
-#   37 in a thousand. A damping ratio of 1e-4 should leave 0.53 of it, and LSODA makes it 19; of 3e-4 should leave 0.15, it makes 5.3. Of all
+#   37 in a thousand. A damping ratio of 1e-4 should leave 0.53 of it, and LSODA makes it 19; of 3e-4: 0.15, and it makes 5.3. Of all
 #   six methods it is the only one that adds energy, with the most steps. Ten times finer (1e-4, 1e-7) it loses 26 % instead. Status and
 #   message say that the end was reached. RK45 ten times finer is a surprise of its own: it loses 6 %, as before.
 # What follows: a decay that looks unstable, as if of galloping or of negative aerodynamic damping, may be the integrator's.
