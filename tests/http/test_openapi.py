@@ -253,6 +253,8 @@ VARIATIONS = [
               "profile_points": 3, "normal_displacement": 0.02, "out_of_plane_displacement": 0.01}),
     (FORCED, {"span_m": 100, "length_m": 110, "mass_kg_per_m": 2, "tangential_displacement_m": 0.5,
               "frequency_ratio_min": 1, "frequency_ratio_max": 4, "points": 3, "profiles_at": [0, 1.5]}),
+    # no motion given: one way of giving it, not two; a profile of one place
+    (FORCED, {"span_m": 100, "length_m": 110, "frequency_ratios": [0.7], "profiles_at": [0.7], "profile_chi": [0]}),
     (FORCED, {"sag_parameter": 0.8, "frequency_ratios": [1.1], "profiles_at": [1.1], "profile_points": 2, "harmonics": [
         {"multiple": 1, "tangential": 0.01}, {"multiple": 3, "normal": 0.002, "phase_deg": 30}]}),
     (FORCED, {"span_m": 100, "length_m": 110, "mass_kg_per_m": 2, "eta_normal": 0.2, "frequency_ratios": [0.7, 2],
