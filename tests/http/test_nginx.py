@@ -127,8 +127,8 @@ def test_an_answer_is_found_by_its_key_wherever_it_lies(proxy):
 BODY = b'{"sag_parameter":0.9}'
 
 
-def post(*headers, body=BODY, first=b"POST " + PATH.encode() + b" HTTP/1.1", host=b"Host: a\r\n"):
-    return first + b"\r\n" + host + b"".join(header + b"\r\n" for header in headers) + b"\r\n" + body
+def post(*headers, body=BODY, first=b"POST " + PATH.encode() + b" HTTP/1.1", host=b"Host: localhost\r\n"):
+    return first + b"\r\nContent-Type: application/json\r\n" + host + b"".join(header + b"\r\n" for header in headers) + b"\r\n" + body
 
 
 LENGTH = b"Content-Length: %d" % len(BODY)
@@ -144,13 +144,13 @@ SINS = {
     "list of lengths": post(b"Content-Length: 5, 5"),
     "length of 20 digits": post(b"Content-Length: " + b"9" * 20),
     "no Host": post(LENGTH, host=b""),
-    "two Hosts": post(LENGTH, host=b"Host: a\r\nHost: b\r\n"),
+    "two Hosts": post(LENGTH, host=b"Host: localhost\r\nHost: b\r\n"),
     "blank before colon": post(b"Content-Length : %d" % len(BODY)),
     "folded header": post(LENGTH, b"X-A: a", b" b"),
     "NUL in a header": post(LENGTH, b"X-A: a\0b"),
-    "NUL in the path": b"GET /livez%00/b HTTP/1.1\r\nHost: a\r\n\r\n",
-    "method in lower case": b"get /livez HTTP/1.1\r\nHost: a\r\n\r\n",
-    "HTTP/2.9": b"GET /livez HTTP/2.9\r\nHost: a\r\n\r\n",
+    "NUL in the path": b"GET /livez%00/b HTTP/1.1\r\nHost: localhost\r\n\r\n",
+    "method in lower case": b"get /livez HTTP/1.1\r\nHost: localhost\r\n\r\n",
+    "HTTP/2.9": b"GET /livez HTTP/2.9\r\nHost: localhost\r\n\r\n",
 }
 
 
@@ -208,7 +208,7 @@ def test_metrics_are_for_this_machine_only(shared_proxy):
     assert shared_proxy.request("GET", path="/metrics").status_code == 200
     for path in (b"/metrics", b"/readyz"):
         with socket.create_connection(("127.0.0.1", shared_proxy.port), PATIENCE, ("127.0.0.2", 0)) as elsewhere:
-            elsewhere.sendall(b"GET " + path + b" HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n")
+            elsewhere.sendall(b"GET " + path + b" HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
             assert split_answers(read_answers(elsewhere))[0][0] == 403
 
 

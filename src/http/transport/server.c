@@ -149,6 +149,7 @@ bool server_start(server *s, service *with, const handlers *h, char fault[256])
     *s = (server){.service = with, .handlers = h, .at.fd = -1};
     if (!listen_open(set->listen, set->allow_non_loopback || with->access, &s->at, fault))
         return false;
+    with->local = s->at.loopback;
     raise_file_limit(set->connections);
     if (!(s->connections = connections_new(with, h))) {
         snprintf(fault, 256, "out of memory or threads");
