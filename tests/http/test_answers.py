@@ -267,3 +267,16 @@ def test_pages(strumd):
     assert len(names) == len(set(names))
     for line in metrics.text.splitlines():
         assert line.startswith("# ") or re.fullmatch(r'strum_\w+(\{(\w+="[^"]*",?)+\})? \d+(\.\d{6})?', line), line
+
+
+def test_a_304_has_the_length_of_the_200_or_none(strumd):
+    """RFC 9110 8.6: no other, and no body; the connection goes on."""
+    first = strumd.post(CHEAP)
+    for path in (first.headers["Content-Location"], f"{PATH}?sag_parameter=0.9&modes=6"):
+        whole = strumd.get(path)
+        ask = f"GET {path} HTTP/1.1\r\nHost: localhost\r\nIf-None-Match: {whole.headers['ETag']}\r\n\r\n".encode()
+        answers = split_answers(strumd.raw(ask, ask, b"GET /livez HTTP/1.1\r\nHost: localhost\r\n\r\n", wait=3))
+        assert [status for status, _, _ in answers] == [304, 304, 200]
+        for _, headers, _ in answers[:2]:
+            assert headers.get("content-length", whole.headers["Content-Length"]) == whole.headers["Content-Length"]
+        assert answers[2][2] == b'{"status":"alive"}'

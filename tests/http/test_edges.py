@@ -2,6 +2,7 @@
 """The edges of HTTP/1.1: what libmicrohttpd 0.9.75 would let through is refused, by bytes on a socket."""
 import concurrent.futures
 import resource
+import time
 
 import pytest
 
@@ -105,6 +106,30 @@ def test_a_body_at_the_limit(start_strumd):
     te = b"Transfer-Encoding: chunked"
     assert split_answers(strumd.raw(post(te, body=chunks + b"0\r\n\r\n"), wait=1))[0][0] == 200
     assert split_answers(strumd.raw(post(te, body=chunks + b"1\r\n \r\n0\r\n\r\n")))[0][0] == 413
+
+
+@pytest.mark.parametrize("size", [65537, 70000, 900000])
+def test_who_sends_all_before_reading_gets_the_refusal(strumd, size):
+    """As many proxies do. Without care the kernel resets the connection, and the answer is lost."""
+    with strumd.connect() as connection:
+        connection.sendall(post(length(size), body=b""))
+        for _ in range(10):  # long after the answer was sent
+            time.sleep(0.05)
+            connection.sendall(b" " * (size // 10))
+        (status, headers, _), = split_answers(read_answers(connection))
+        assert status == 413 and headers["connection"] == "close"
+
+
+def test_who_never_stops_sending_is_cut(strumd):
+    with strumd.connect() as connection, pytest.raises((BrokenPipeError, ConnectionResetError)):
+        connection.sendall(post(length(10**12), body=b""))
+        while True:
+            connection.sendall(b" " * 10000)
+    with strumd.connect() as slow, pytest.raises((BrokenPipeError, ConnectionResetError)):
+        slow.sendall(post(length(10**12), body=b""))
+        while True:
+            slow.sendall(b" ")
+            time.sleep(0.05)
 
 
 def test_too_much_head(strumd):

@@ -278,6 +278,7 @@ enum MHD_Result dispatch_begin(connection *p, const char *url, const char *verb,
     /* An answer now ends the connection (the body is not read); other refusals wait for it. */
     if (r->refusal.status && (r->close || h.expect)) {
         r->close = true;
+        connection_linger(p);
         return reply_problem(p, &r->refusal);
     }
     return MHD_YES;

@@ -243,10 +243,10 @@ enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
     }
     const bool good = e->status == 200;
     const bool has = good && !e->transient && already_has(r->if_none_match, e->hex);
-    struct MHD_Response *response =
-        has ? MHD_create_response_from_buffer(0, "", MHD_RESPMEM_PERSISTENT)
-            : MHD_create_response_from_buffer_with_free_callback_cls(e->size, e->body,
-                                                                     release_entry, e);
+    /* A 304 has no body, but libmicrohttpd adds the length of its response: it must be that of the
+     * 200 then (RFC 9110 8.6). */
+    struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(
+        e->size, e->body, release_entry, e);
     if (!response) {
         entry_unref(e);
         return queue(p, 503, p->service->no_memory, 0);
@@ -262,11 +262,7 @@ enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
         header(response, "Cache-Control", "no-store");
     }
     const int status = has ? 304 : e->status;
-    const size_t size = has ? 0 : e->size;
-    const enum MHD_Result result = finish(p, status, response, size);
-    if (has)
-        entry_unref(e); /* otherwise the response has the reference */
-    return result;
+    return finish(p, status, response, has ? 0 : e->size); /* the response has the reference */
 }
 
 /* ---- the rest ---- */
@@ -354,7 +350,7 @@ enum MHD_Result reply_asset(connection *p, const asset *a)
 {
     const bool has = already_has(p->request->if_none_match, a->hex), packed = takes_gzip(p);
     const unsigned char *bytes = packed ? a->gzip : a->bytes;
-    const size_t size = has ? 0 : (size_t)((packed ? a->gzip_end : a->bytes_end) - bytes);
+    const size_t size = (size_t)((packed ? a->gzip_end : a->bytes_end) - bytes);
     struct MHD_Response *response =
         MHD_create_response_from_buffer(size, (void *)(uintptr_t)bytes, MHD_RESPMEM_PERSISTENT);
     if (response) {
@@ -371,7 +367,7 @@ enum MHD_Result reply_asset(connection *p, const asset *a)
             header(response, "Content-Type", a->type);
         guard_page(response, false);
     }
-    return finish(p, has ? 304 : 200, response, size);
+    return finish(p, has ? 304 : 200, response, has ? 0 : size);
 }
 
 enum MHD_Result reply_problem(connection *p, problem *why)
