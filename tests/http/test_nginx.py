@@ -134,23 +134,13 @@ def post(*headers, body=BODY, first=b"POST " + PATH.encode() + b" HTTP/1.1", hos
 LENGTH = b"Content-Length: %d" % len(BODY)
 CHUNKED = b"%x\r\n%s\r\n0\r\n\r\n" % (len(BODY), BODY)
 SINS = {
-    "length and chunked": post(b"Content-Length: 6", b"Transfer-Encoding: chunked", body=b"0\r\n\r\nGET / HTTP/1.1\r\n\r\n"),
-    "chunked and length": post(b"Transfer-Encoding: chunked", LENGTH, body=CHUNKED),
-    "unknown coding": post(b"Transfer-Encoding: xchunked", body=CHUNKED),
-    "two codings": post(b"Transfer-Encoding: chunked, identity", body=CHUNKED),
-    "two lengths": post(b"Content-Length: 5", LENGTH),
-    "signed length": post(b"Content-Length: +%d" % len(BODY)),
-    "negative length": post(b"Content-Length: -1"),
-    "list of lengths": post(b"Content-Length: 5, 5"),
-    "length of 20 digits": post(b"Content-Length: " + b"9" * 20),
+    "length and chunked": post(LENGTH, b"Transfer-Encoding: chunked", body=CHUNKED),
+    "unknown coding": post(b"Transfer-Encoding: gzip", body=CHUNKED),
+    "a length twice": post(LENGTH, LENGTH),
     "no Host": post(LENGTH, host=b""),
     "two Hosts": post(LENGTH, host=b"Host: localhost\r\nHost: b\r\n"),
-    "blank before colon": post(b"Content-Length : %d" % len(BODY)),
-    "folded header": post(LENGTH, b"X-A: a", b" b"),
-    "NUL in a header": post(LENGTH, b"X-A: a\0b"),
     "NUL in the path": b"GET /livez%00/b HTTP/1.1\r\nHost: localhost\r\n\r\n",
     "method in lower case": b"get /livez HTTP/1.1\r\nHost: localhost\r\n\r\n",
-    "HTTP/2.9": b"GET /livez HTTP/2.9\r\nHost: localhost\r\n\r\n",
 }
 
 
@@ -179,9 +169,9 @@ def test_faulty_framing_does_not_pass(shared_proxy, strumd, name):
 
 
 def test_what_passes_is_written_anew(shared_proxy, strumd):
-    """A bare line feed ends a line for nginx; strumd gets CR LF. Strange header names are dropped."""
+    """A strange header name, which strumd refuses, is dropped."""
     with shared_proxy.connect() as connection:
-        connection.sendall(b"GET /livez HTTP/1.1\nHost: a\nX(A): b\nConnection: close\n\n")
+        connection.sendall(b"GET /livez HTTP/1.1\r\nHost: a\r\nX(A): b\r\nConnection: close\r\n\r\n")
         (status, _, body), = split_answers(read_answers(connection))
     assert (status, body) == (200, b'{"status":"alive"}')
 

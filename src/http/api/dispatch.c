@@ -64,8 +64,7 @@ static enum MHD_Result read_header(void *cls, enum MHD_ValueKind kind, const cha
     request *r = h->request;
     if (!value)
         value = "";
-    /* libmicrohttpd lets such names through: "Content-Length : 5" is no length to it, and the
-     * body would be read as the next request. */
+    /* libmicrohttpd does not check names. */
     if (!is_token(name, name_size))
         h->fault = "a header's name has a character that no name may have";
 #define IS(text) (name_size == sizeof text - 1 && strcasecmp(name, text) == 0)
