@@ -4,6 +4,7 @@ import json
 import re
 import socket
 import subprocess
+import threading
 import time
 
 import pytest
@@ -210,7 +211,47 @@ def test_a_replica_that_goes_is_not_missed(proxy):
     gone.process.wait(PATIENCE)
     for number in range(40):
         assert proxy.request("POST", question(number)).status_code == 200
+        assert proxy.request("GET", path=f"{PATH}?sag_parameter={0.5 + 0.001 * number}").status_code == 200
+        assert proxy.request("QUERY", question(number)).status_code == 200
     assert left.end() == 0
     answer = proxy.request("POST", question(1))
     assert answer.status_code == 503 and answer.headers["Retry-After"] == "1"
     assert answer.headers["Content-Type"] == "application/problem+json"
+
+
+class Mortal:
+    """A replica that reads a request whole and goes without a word: `asked` counts them."""
+
+    def __init__(self):
+        self.asked = 0
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.port = self.listener.getsockname()[1]
+        threading.Thread(target=self.serve, daemon=True).start()
+
+    def serve(self):
+        while True:
+            try:
+                connection, _ = self.listener.accept()
+            except OSError:
+                return
+            with connection:
+                got = connection.recv(65536)
+                while b"\r\n\r\n" not in got or (b"sag_parameter" not in got):
+                    got += connection.recv(65536)
+                self.asked += 1
+
+
+@pytest.mark.parametrize("method", ["POST", "GET", "HEAD", "QUERY"])
+def test_a_request_that_ended_a_replica_is_not_sent_to_the_next(tmp_path, method):
+    replicas = [Mortal(), Mortal()]
+    proxied = Proxy(tmp_path, replicas)
+    try:
+        reads = method in ("GET", "HEAD")
+        answer = proxied.request(method, None if reads else CHEAP, PATH + "?sag_parameter=0.9" if reads else PATH)
+        assert answer.status_code == 503 and answer.headers["Retry-After"] == "1"
+        assert sum(replica.asked for replica in replicas) == 1
+    finally:
+        proxied.process.terminate()
+        assert proxied.process.wait(PATIENCE) == 0
+        for replica in replicas:
+            replica.listener.close()
