@@ -122,3 +122,75 @@ def test_a_hangup_reads_the_tokens_again(start_strumd, token_file):
     assert set(kept) == {200}
     assert [line["level"] for line in strumd.log if line["event"] == "reload"] == ["info", "error", "info"]
     assert "short" not in str(strumd.log)
+
+
+def cookie_of(answer):
+    return answer.headers["Set-Cookie"].split(";")[0]
+
+
+HTML = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
+
+
+def test_a_browser_logs_in(start_strumd, token_file):
+    strumd = start_strumd("--token-file", token_file)
+    for path in ("/", "/docs", PATH + "?sag_parameter=0.9"):
+        asked = strumd.get(path, headers=HTML)
+        assert asked.status_code == 401 and asked.headers["Content-Type"].startswith("text/html")
+        assert 'action="/login"' in asked.text and "form-action 'self'" in asked.headers["Content-Security-Policy"]
+    refused = strumd.request("POST", "/login", data={"token": ONE + "0"}, allow_redirects=False)
+    assert refused.status_code == 401 and "not known" in refused.text and "Set-Cookie" not in refused.headers
+    assert ONE not in refused.text
+    for token in (ONE, TWO):  # the second has a "+" or "=" to be encoded
+        done = strumd.request("POST", "/login", data={"token": token, "to": "/"}, allow_redirects=False,
+                              headers={"Origin": strumd.url, "Sec-Fetch-Site": "same-origin"})
+        assert (done.status_code, done.headers["Location"], done.headers["Cache-Control"]) == (303, "/", "no-store")
+        for word in ("HttpOnly", "SameSite=Strict", "Path=/"):
+            assert word in done.headers["Set-Cookie"].split("; ")
+        assert "Secure" not in done.headers["Set-Cookie"] and token not in done.headers["Set-Cookie"]
+        cookie = {"Cookie": "a=b; " + cookie_of(done) + "; c=d"}
+        answer = strumd.post(CHEAP, headers=cookie)
+        assert answer.status_code == 200 and answer.headers["Cache-Control"] == "private, no-cache"
+        assert strumd.get("/", headers={**HTML, **cookie}).status_code in (200, 404)  # 404: built without its pages
+        # a token that is wrong is not mended by a cookie
+        assert strumd.post(CHEAP, headers={**cookie, **bearer("wrong")}).status_code == 401
+    left = strumd.request("POST", "/login", data={}, allow_redirects=False,
+                          headers={"Content-Type": "application/x-www-form-urlencoded"})
+    assert left.status_code == 303 and "strum=;" in left.headers["Set-Cookie"] and "Max-Age=0" in left.headers["Set-Cookie"]
+
+
+def test_only_cookies_of_known_tokens_are_let_in(start_strumd, token_file):
+    strumd, other = start_strumd("--token-file", token_file), start_strumd("--token-file", token_file)
+    good = cookie_of(strumd.request("POST", "/login", data={"token": ONE}, allow_redirects=False))
+    assert other.post(CHEAP, headers={"Cookie": good}).status_code == 200  # any replica knows it
+    value = good.removeprefix("strum=")
+    for bad in ("strum=", f"strum={ONE}", f"strum={value[:-1]}", f"strum={value}0", f"strum={value.upper()}", f"Strum={value}",
+                f"xstrum={value}", f"a=strum={value}", value, "strum=" + 64 * "0"):
+        assert strumd.post(CHEAP, headers={"Cookie": bad}).status_code == 401, bad
+    assert strumd.post(CHEAP, headers=bearer(value)).status_code == 401
+    # a token that goes takes its cookie along
+    pathlib.Path(token_file).write_text(f"{TWO}\n")
+    strumd.process.send_signal(signal.SIGHUP)
+    strumd.wait_log("reload")
+    assert strumd.post(CHEAP, headers={"Cookie": good}).status_code == 401
+
+
+def test_the_login_is_for_our_own_form_only(start_strumd, token_file):
+    strumd = start_strumd("--token-file", token_file)
+    for headers in ({"Origin": "https://evil.example"}, {"Origin": "null"}, {"Sec-Fetch-Site": "cross-site"}, {"Host": "evil.example"}):
+        assert strumd.request("POST", "/login", data={"token": ONE}, headers=headers, allow_redirects=False).status_code == 403
+    assert strumd.post({"token": ONE}, "/login", allow_redirects=False).status_code == 415
+    hostile = ("//evil.example", "https://evil.example/", '"><script>', "/nothing", "/docs/../x")
+    for to in hostile:
+        done = strumd.request("POST", "/login", data={"token": ONE, "to": to}, allow_redirects=False)
+        assert done.headers["Location"] == "/", to
+        again = strumd.request("POST", "/login", data={"token": "wrong", "to": to})
+        assert to not in again.text
+    assert '"><x>' not in strumd.get('/docs/"><x>', headers=HTML).text
+    # behind a proxy that speaks TLS the cookie goes by TLS alone
+    tls = strumd.request("POST", "/login", data={"token": ONE}, headers={"Origin": f"https://{strumd.address}"}, allow_redirects=False)
+    assert tls.status_code == 303 and "Secure" in tls.headers["Set-Cookie"].split("; ")
+
+
+def test_without_tokens_there_is_nothing_to_log_in_to(strumd):
+    assert strumd.get("/login", allow_redirects=False).headers["Location"] == "/"
+    assert strumd.request("POST", "/login", data={"token": ONE}, allow_redirects=False).status_code == 303

@@ -48,7 +48,7 @@ def open_batch(strumd, items):
     """A connection over which a batch was sent."""
     body = json.dumps(items).encode()
     connection = strumd.connect()
-    connection.sendall(b"POST /v1/batch HTTP/1.1\r\nHost: a\r\nContent-Length: %d\r\n\r\n%s" % (len(body), body))
+    connection.sendall(b"POST /v1/batch HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s" % (len(body), body))
     return connection
 
 

@@ -1,17 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The edges of HTTP/1.1: what libmicrohttpd 0.9.75 would let through is refused, by bytes on a socket."""
+"""The edges of HTTP/1.1, by bytes on a socket: what our own guard refuses, and the limits."""
 import concurrent.futures
 import resource
+import time
 
 import pytest
 
 from conftest import CHEAP, PATH, read_answers, split_answers
 
 BODY = b'{"sag_parameter":0.9}'
-SECOND = b"GET /livez HTTP/1.1\r\nHost: a\r\n\r\n"
+SECOND = b"GET /livez HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
 
-def post(*headers, body=BODY, host=b"Host: a\r\n", version=b"1.1"):
+def post(*headers, body=BODY, host=b"Host: localhost\r\n", version=b"1.1"):
+    if not any(header.startswith(b"Content-Type") for header in headers):
+        headers = (b"Content-Type: application/json", *headers)
     return b"POST " + PATH.encode() + b" HTTP/" + version + b"\r\n" + host + b"".join(h + b"\r\n" for h in headers) + \
         b"\r\n" + body
 
@@ -28,35 +31,25 @@ EDGES = {
     "chunked": (post(b"Transfer-Encoding: chunked", body=CHUNKED), 200, False),
     "Chunked": (post(b"Transfer-Encoding: Chunked", body=CHUNKED), 200, False),
     "no Host in 1.0": (post(length(), host=b"", version=b"1.0"), 200, True),
-    "length and chunked": (post(length(6), b"Transfer-Encoding: chunked", body=b"0\r\n\r\n" + SECOND), 400, True),
-    "chunked and length": (post(b"Transfer-Encoding: chunked", length(6), body=b"0\r\n\r\n" + SECOND), 400, True),
-    "unknown coding": (post(b"Transfer-Encoding: xchunked", body=CHUNKED), 501, True),
-    "two codings": (post(b"Transfer-Encoding: chunked, identity", body=CHUNKED), 501, True),
-    "gzip, chunked": (post(b"Transfer-Encoding: gzip, chunked", body=CHUNKED), 501, True),
+    "length and chunked": (post(length(), b"Transfer-Encoding: chunked", body=CHUNKED), 400, True),
+    "unknown coding": (post(b"Transfer-Encoding: gzip", body=CHUNKED), 501, True),
     "coding twice": (post(b"Transfer-Encoding: chunked", b"Transfer-Encoding: chunked", body=CHUNKED), 400, True),
     "chunked in 1.0": (post(b"Transfer-Encoding: chunked", body=CHUNKED, version=b"1.0"), 400, True),
-    "two lengths": (post(length(5), length(7)), 400, True),
     "a length twice": (post(length(), length()), 400, True),
     "no Host": (post(length(), host=b""), 400, True),
-    "two Hosts": (post(length(), host=b"Host: a\r\nHost: b\r\n"), 400, True),
-    "space before colon": (post(b"Content-Length : %d" % len(BODY)), 400, True),
-    "tab before colon": (post(b"Content-Length\t: %d" % len(BODY)), 400, True),
+    "two Hosts": (post(length(), host=b"Host: localhost\r\nHost: b\r\n"), 400, True),
     "strange header name": (post(length(), b"X(A): a"), 400, True),
-    "NUL in the path": (b"GET /livez%00/b HTTP/1.1\r\nHost: a\r\n\r\n", 404, False),
-    "NUL in a parameter": (b"GET " + PATH.encode() + b"?modes=6%00 HTTP/1.1\r\nHost: a\r\n\r\n", 400, False),
-    "encoded path": (b"GET /%6civez HTTP/1.1\r\nHost: a\r\n\r\n", 200, False),
-    "broken encoding": (b"GET /livez%zz HTTP/1.1\r\nHost: a\r\n\r\n", 404, False),
-    "dots": (b"GET /x/../livez HTTP/1.1\r\nHost: a\r\n\r\n", 404, False),
-    "method in lower case": (b"get /livez HTTP/1.1\r\nHost: a\r\n\r\n", 501, False),
-    "OPTIONS *": (b"OPTIONS * HTTP/1.1\r\nHost: a\r\n\r\n", 204, False),
-    "GET *": (b"GET * HTTP/1.1\r\nHost: a\r\n\r\n", 404, False),
+    "NUL in the path": (b"GET /livez%00/b HTTP/1.1\r\nHost: localhost\r\n\r\n", 404, False),
+    "NUL in a parameter": (b"GET " + PATH.encode() + b"?modes=6%00 HTTP/1.1\r\nHost: localhost\r\n\r\n", 400, False),
+    "encoded path": (b"GET /%6civez HTTP/1.1\r\nHost: localhost\r\n\r\n", 200, False),
+    "broken encoding": (b"GET /livez%zz HTTP/1.1\r\nHost: localhost\r\n\r\n", 404, False),
+    "dots": (b"GET /x/../livez HTTP/1.1\r\nHost: localhost\r\n\r\n", 404, False),
+    "method in lower case": (b"get /livez HTTP/1.1\r\nHost: localhost\r\n\r\n", 501, False),
+    "OPTIONS *": (b"OPTIONS * HTTP/1.1\r\nHost: localhost\r\n\r\n", 204, False),
+    "GET *": (b"GET * HTTP/1.1\r\nHost: localhost\r\n\r\n", 404, False),
     "two requests at once": (SECOND, 200, False),
     "body over the limit": (post(length(65537), body=b""), 413, True),
     "body far over the limit": (post(length(10**12), body=b""), 413, True),
-    # What libmicrohttpd does not show its caller; deploy/README.md lists it, and nginx stops it.
-    "bare line feeds": (b"GET /livez HTTP/1.1\nHost: a\n\n", 200, False),
-    "folded header": (post(length(), b"X-A: 1\r\n 2"), 200, False),
-    "NUL in a header": (post(length(), b"X-A: a\0b"), 200, False),
     "over the limit, asked before": (post(length(65537), b"Expect: 100-continue", body=b""), 413, True),
     "wrong type, asked before": (post(length(), b"Content-Type: a/b", b"Expect: 100-continue", body=b""), 415, True),
 }
@@ -105,11 +98,35 @@ def test_a_body_at_the_limit(start_strumd):
     assert split_answers(strumd.raw(post(te, body=chunks + b"1\r\n \r\n0\r\n\r\n")))[0][0] == 413
 
 
+@pytest.mark.parametrize("size", [65537, 70000, 900000])
+def test_who_sends_all_before_reading_gets_the_refusal(strumd, size):
+    """As many proxies do. Without care the kernel resets the connection, and the answer is lost."""
+    with strumd.connect() as connection:
+        connection.sendall(post(length(size), body=b""))
+        for _ in range(10):  # long after the answer was sent
+            time.sleep(0.05)
+            connection.sendall(b" " * (size // 10))
+        (status, headers, _), = split_answers(read_answers(connection))
+        assert status == 413 and headers["connection"] == "close"
+
+
+def test_who_never_stops_sending_is_cut(strumd):
+    with strumd.connect() as connection, pytest.raises((BrokenPipeError, ConnectionResetError)):
+        connection.sendall(post(length(10**12), body=b""))
+        while True:
+            connection.sendall(b" " * 10000)
+    with strumd.connect() as slow, pytest.raises((BrokenPipeError, ConnectionResetError)):
+        slow.sendall(post(length(10**12), body=b""))
+        while True:
+            slow.sendall(b" ")
+            time.sleep(0.05)
+
+
 def test_too_much_head(strumd):
     """libmicrohttpd answers these itself, in HTML."""
     long = b"a" * 20000
-    assert split_answers(strumd.raw(b"GET /" + long + b" HTTP/1.1\r\nHost: a\r\n\r\n"))[0][0] == 414
-    assert split_answers(strumd.raw(b"GET / HTTP/1.1\r\nHost: a\r\nX: " + long + b"\r\n\r\n"))[0][0] == 431
+    assert split_answers(strumd.raw(b"GET /" + long + b" HTTP/1.1\r\nHost: localhost\r\n\r\n"))[0][0] == 414
+    assert split_answers(strumd.raw(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + long + b"\r\n\r\n"))[0][0] == 431
 
 
 def test_too_many_parameters(strumd):

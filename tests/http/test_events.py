@@ -32,7 +32,7 @@ def open_events(strumd, body, path=FORCED):
     """A connection that has asked for events."""
     text = json.dumps(body).encode()
     connection = strumd.connect()
-    connection.sendall(b"POST %s HTTP/1.1\r\nHost: a\r\nAccept: text/event-stream\r\nContent-Length: %d\r\n\r\n%s" % (
+    connection.sendall(b"POST %s HTTP/1.1\r\nHost: localhost\r\nAccept: text/event-stream\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s" % (
         path.encode(), len(text), text))
     return connection
 
@@ -60,7 +60,7 @@ def test_progress_then_the_result(start_strumd):
     # what is stored, by these bytes or by others, is a result at once
     assert events(strumd.post(BRIEF, FORCED, headers=EVENTS)) == [("result", data)]
     other_bytes = json.dumps(BRIEF, indent=3)
-    assert events(strumd.request("POST", FORCED, data=other_bytes, headers=EVENTS)) == [("result", data)]
+    assert events(strumd.request("POST", FORCED, data=other_bytes, headers={**EVENTS, "Content-Type": "application/json"})) == [("result", data)]
     assert strumd.metric("solves_total") == 1
 
 

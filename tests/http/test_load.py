@@ -24,7 +24,7 @@ def costly(number):
 
 def as_bytes(body, path=PATH):
     prepared = requests.Request("POST", "http://a" + path, json=body).prepare()
-    return b"POST %s HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s" % (
+    return b"POST %s HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s" % (
         path.encode(), len(prepared.body), prepared.body)
 
 
@@ -166,14 +166,14 @@ def test_draining_loses_nothing(start_strumd, number, threads):
 def test_while_draining(start_strumd):
     strumd = start_strumd(*ONE_WORKER)
     kept = strumd.connect()
-    kept.sendall(b"GET /readyz HTTP/1.1\r\nHost: a\r\n\r\n")
+    kept.sendall(b"GET /readyz HTTP/1.1\r\nHost: localhost\r\n\r\n")
     assert split_answers(read_answers(kept, 1))[0][0] == 200
     with held(strumd):
         connections = ask(strumd, [costly(number) for number in range(40)])
         wait_metric(strumd, "flights", 41)
         strumd.process.send_signal(signal.SIGTERM)
         strumd.wait_log("draining")
-        kept.sendall(b"GET /readyz HTTP/1.1\r\nHost: a\r\n\r\n")
+        kept.sendall(b"GET /readyz HTTP/1.1\r\nHost: localhost\r\n\r\n")
         (status, headers, body), = split_answers(read_answers(kept))
         assert status == 503 and headers["connection"] == "close" and b"shutting down" in body
         kept.close()

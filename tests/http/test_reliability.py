@@ -47,7 +47,7 @@ def dripping(strumd, count):
     for number in range(count):
         connections.append(strumd.connect())
         connections[-1].sendall(b"GET /livez HTTP/1.1\r\nX: " if number % 2 else
-                                b"POST " + PATH.encode() + b" HTTP/1.1\r\nHost: a\r\nContent-Length: 60000\r\n\r\n")
+                                b"POST " + PATH.encode() + b" HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 60000\r\n\r\n")
     return connections
 
 

@@ -5,6 +5,7 @@
 
 #include "http/api/batch.h"
 #include "http/api/dispatch.h"
+#include "http/api/login.h"
 #include "http/api/pages.h"
 #include "http/api/reply.h"
 #include "http/api/solve_handler.h"
@@ -16,13 +17,18 @@ static const page pages[] = {
     {.path = "/v1/results/", .rest = "{key}", .serve = handle_result, .methods = READ},
     {.path = "/livez", .serve = page_livez, .methods = READ, .open = true},
     {.path = "/readyz", .serve = page_readyz, .methods = READ, .open = true},
+    {.path = "/login",
+     .serve = login_page,
+     .methods = READ | METHOD_POST,
+     .open = true,
+     .form = true},
     {.path = "/version", .serve = page_version, .methods = READ},
     {.path = "/metrics", .serve = page_metrics, .methods = READ},
     {.path = "/", .serve = page_asset, .methods = READ},
     {.path = "/docs", .serve = page_asset, .methods = READ},
     {.path = "/openapi.json", .serve = page_asset, .methods = READ},
     {.path = "/docs/", .rest = "{endpoint}", .serve = page_asset, .methods = READ},
-    {.path = "/assets/", .rest = "{file}", .serve = page_asset, .methods = READ},
+    {.path = "/assets/", .rest = "{file}", .serve = page_asset, .methods = READ, .open = true},
     {.path = NULL, .serve = handle_endpoint},
 };
 

@@ -6,8 +6,10 @@
 #include <string.h>
 #include <strings.h>
 
-#include "http/service/clock.h"
+#include "http/api/browser.h"
+#include "http/api/login.h"
 #include "http/api/reply.h"
+#include "http/service/clock.h"
 
 /* A body too large is read for this many bytes more, to answer at its end: libmicrohttpd cannot
  * answer in the middle of a chunked upload. */
@@ -17,8 +19,9 @@
 
 typedef struct headers {
     request *request;
-    const char *authorization, *content_type, *transfer_encoding, *content_length, *expect,
-        *fault;
+    browser_headers browser;
+    const char *authorization, *cookie, *content_type, *transfer_encoding, *content_length,
+        *expect, *fault;
     unsigned hosts, lengths, encodings;
 } headers;
 
@@ -61,14 +64,14 @@ static enum MHD_Result read_header(void *cls, enum MHD_ValueKind kind, const cha
     request *r = h->request;
     if (!value)
         value = "";
-    /* libmicrohttpd lets such names through: "Content-Length : 5" is no length to it, and the
-     * body would be read as the next request. */
+    /* libmicrohttpd does not check names. */
     if (!is_token(name, name_size))
         h->fault = "a header's name has a character that no name may have";
 #define IS(text) (name_size == sizeof text - 1 && strcasecmp(name, text) == 0)
-    else if (IS("Host"))
+    else if (IS("Host")) {
+        h->browser.host = value;
         h->hosts++;
-    else if (IS("Content-Type"))
+    } else if (IS("Content-Type"))
         h->content_type = value;
     else if (IS("Content-Length")) {
         h->content_length = value;
@@ -80,10 +83,18 @@ static enum MHD_Result read_header(void *cls, enum MHD_ValueKind kind, const cha
         h->expect = value;
     else if (IS("Authorization"))
         h->authorization = value;
+    else if (IS("Cookie"))
+        h->cookie = value;
     else if (IS("Accept"))
         r->accept = value;
     else if (IS("Origin"))
-        r->origin = value;
+        h->browser.origin = r->origin = value;
+    else if (IS("Sec-Fetch-Site"))
+        h->browser.site = value;
+    else if (IS("Sec-Fetch-Mode"))
+        h->browser.mode = value;
+    else if (IS("Sec-Fetch-Dest"))
+        h->browser.dest = value;
     else if (IS("If-None-Match"))
         r->if_none_match = value;
     else if (IS("Access-Control-Request-Method"))
@@ -145,6 +156,41 @@ static bool count_batch(connection *p)
     return atomic_fetch_add(&p->service->batches, 1) < p->service->settings->batches;
 }
 
+#define READS (METHOD_GET | METHOD_HEAD)
+
+/* Probes are asked by any name: they say nothing that matters. */
+static void check_browser(connection *p, const headers *h)
+{
+    request *r = p->request;
+    const settings *set = p->service->settings;
+    if (r->route.open && (r->method & READS))
+        return;
+    browser_check_host(&h->browser, set, p->service->local, &r->refusal);
+    /* What a preflight may be told is in the headers of its answer. */
+    if (!r->refusal.status && r->method != METHOD_OPTIONS)
+        browser_check_origin(&h->browser, set, !r->route.endpoint && (r->method & READS),
+                             &r->refusal);
+}
+
+/* The type must be said: a page of any site may have a browser send a form or text unasked, but not
+ * JSON. */
+static bool has_type(const request *r, const headers *h)
+{
+    const char *wanted =
+        r->route.form ? "application/x-www-form-urlencoded" : "application/json";
+    return r->is_lines || (h->content_type && is_type(h->content_type, wanted));
+}
+
+/* Preflights carry no token, by the CORS protocol. A cookie holds only where no token is given. */
+static bool may_ask(const connection *p, const headers *h)
+{
+    const request *r = p->request;
+    access_list *access = p->service->access;
+    return !access || r->route.open || r->method == METHOD_OPTIONS ||
+           (h->authorization ? access_allows(access, h->authorization)
+                             : access_allows_cookie(access, h->cookie));
+}
+
 /* Refuses everything that can be refused before the body has come. */
 static void check(connection *p, const headers *h)
 {
@@ -152,12 +198,13 @@ static void check(connection *p, const headers *h)
     const bool takes_body = r->method == METHOD_POST || r->method == METHOD_QUERY;
     const uint64_t limit = body_limit(p);
     const bool has_body = h->encodings || (h->content_length && strcmp(h->content_length, "0"));
-    /* Preflights carry no token, by the CORS protocol. */
-    if (!r->route.open && r->method != METHOD_OPTIONS &&
-        !access_allows(p->service->access, h->authorization)) {
-        problem_set(&r->refusal, 401, "%s",
-                    h->authorization ? "this token is not known"
-                                     : "a token is needed: Authorization: Bearer TOKEN");
+    if (!may_ask(p, h)) {
+        problem_set(
+            &r->refusal, 401, "%s",
+            h->authorization
+                ? "this token is not known"
+                : "a token is needed: Authorization: Bearer TOKEN; in a browser, log in at "
+                  "/login");
     } else if (h->content_length && strtoull(h->content_length, NULL, 10) > limit) {
         problem_set(&r->refusal, 413, "the body is larger than %llu bytes",
                     (unsigned long long)limit);
@@ -180,18 +227,16 @@ static void check(connection *p, const headers *h)
         problem_set(&r->refusal, 405, "this path is asked by %s", allowed);
     } else if (has_body && (r->method == METHOD_GET || r->method == METHOD_HEAD)) {
         problem_set(&r->refusal, 400, "GET takes no body; send it by POST or QUERY");
-    } else if (takes_body && h->content_type && !r->is_lines &&
-               !is_type(h->content_type, "application/json")) {
-        problem_set(&r->refusal, 415,
-                    "the body must be application/json%s; say so in Content-Type",
-                    r->route.batch ? " or application/x-ndjson" : "");
+    } else if (takes_body && !has_type(r, h)) {
+        problem_set(
+            &r->refusal, 415,
+            "the body must be application/json%s, and Content-Type must say so; with curl: "
+            "--json BODY, or -d BODY -H 'Content-Type: application/json'",
+            r->route.batch ? " or application/x-ndjson" : "");
     } else if (takes_body && r->route.endpoint &&
                MHD_get_connection_values(p->mhd, MHD_GET_ARGUMENT_KIND, NULL, NULL)) {
         problem_set(&r->refusal, 400, "the fields of %s stand in its body, not in the URL",
                     r->method == METHOD_POST ? "POST" : "QUERY");
-    } else if (!h->content_type && r->method == METHOD_QUERY) {
-        /* RFC 10008 makes it a fault; POST without one is taken for JSON. */
-        problem_set(&r->refusal, 400, "QUERY needs a Content-Type: application/json");
     } else if (r->method == METHOD_POST && r->route.batch && !count_batch(p)) {
         problem_set(&r->refusal, 503, "%lld batches are under way; try again later",
                     (long long)p->service->settings->batches);
@@ -226,10 +271,13 @@ enum MHD_Result dispatch_begin(connection *p, const char *url, const char *verb,
         r->route.batch && h.content_type && is_type(h.content_type, "application/x-ndjson");
     check_framing(&h, r, version);
     if (!r->refusal.status)
+        check_browser(p, &h);
+    if (!r->refusal.status)
         check(p, &h);
     /* An answer now ends the connection (the body is not read); other refusals wait for it. */
     if (r->refusal.status && (r->close || h.expect)) {
         r->close = true;
+        connection_linger(p);
         return reply_problem(p, &r->refusal);
     }
     return MHD_YES;
@@ -255,6 +303,8 @@ enum MHD_Result dispatch_body(connection *p, const char *bytes, size_t size)
 enum MHD_Result dispatch_finish(connection *p)
 {
     request *r = p->request;
+    if (r->refusal.status == 401 && login_is_wanted(r))
+        return login_ask(p);
     if (r->refusal.status)
         return reply_problem(p, &r->refusal);
     if (r->method == METHOD_OPTIONS)

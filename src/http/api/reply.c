@@ -8,11 +8,13 @@
 #include <string.h>
 
 #include "http/api/assets.h"
+#include "http/api/browser.h"
 #include "http/service/clock.h"
 #include "http/service/log.h"
 
 #define JSON_TYPE    "application/json"
 #define PROBLEM_TYPE "application/problem+json"
+#define CHALLENGE    "Bearer realm=\"strum\""
 
 static void header(struct MHD_Response *response, const char *name, const char *value)
 {
@@ -21,19 +23,6 @@ static void header(struct MHD_Response *response, const char *name, const char *
 }
 
 /* ---- other origins' pages (CORS) ---- */
-
-static bool list_has(const char *list, const char *item)
-{
-    const size_t size = strlen(item);
-    for (const char *at = list; *at;) {
-        at += strspn(at, ", ");
-        const size_t span = strcspn(at, ", ");
-        if ((span == 1 && *at == '*') || (span == size && strncmp(at, item, size) == 0))
-            return true;
-        at += span;
-    }
-    return false;
-}
 
 static bool cors_add(const connection *p, struct MHD_Response *response)
 {
@@ -266,10 +255,10 @@ enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
     }
     const bool good = e->status == 200;
     const bool has = good && !e->transient && already_has(r->if_none_match, e->hex);
-    struct MHD_Response *response =
-        has ? MHD_create_response_from_buffer(0, "", MHD_RESPMEM_PERSISTENT)
-            : MHD_create_response_from_buffer_with_free_callback_cls(e->size, e->body,
-                                                                     release_entry, e);
+    /* A 304 has no body, but libmicrohttpd adds the length of its response: it must be that of the
+     * 200 then (RFC 9110 8.6). */
+    struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(
+        e->size, e->body, release_entry, e);
     if (!response) {
         entry_unref(e);
         return queue(p, 503, p->service->no_memory, 0);
@@ -285,11 +274,7 @@ enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
         header(response, "Cache-Control", "no-store");
     }
     const int status = has ? 304 : e->status;
-    const size_t size = has ? 0 : e->size;
-    const enum MHD_Result result = finish(p, status, response, size);
-    if (has)
-        entry_unref(e); /* otherwise the response has the reference */
-    return result;
+    return finish(p, status, response, has ? 0 : e->size); /* the response has the reference */
 }
 
 /* ---- the rest ---- */
@@ -303,6 +288,47 @@ enum MHD_Result reply_text(connection *p, int status, const char *type, strbuf *
         header(response, "Cache-Control", "no-store");
     }
     return finish(p, status, response, size);
+}
+
+/* The page loads from this daemon only, and no other page may frame it. */
+#define POLICY                                                                                 \
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "    \
+    "connect-src 'self'; base-uri 'none'; frame-ancestors 'none'; "
+
+static void guard_page(struct MHD_Response *response, bool has_form)
+{
+    header(response, "Content-Security-Policy",
+           has_form ? POLICY "form-action 'self'" : POLICY "form-action 'none'");
+    header(response, "X-Content-Type-Options", "nosniff");
+    /* With no-referrer a browser would send the form with Origin: null. */
+    header(response, "Referrer-Policy", has_form ? "same-origin" : "no-referrer");
+}
+
+enum MHD_Result reply_page(connection *p, int status, strbuf *body)
+{
+    const size_t size = body->size;
+    struct MHD_Response *response = take_text(body);
+    if (response) {
+        header(response, "Content-Type", "text/html; charset=utf-8");
+        header(response, "Cache-Control", "no-store");
+        if (status == 401)
+            header(response, "WWW-Authenticate", CHALLENGE);
+        guard_page(response, true);
+    }
+    return finish(p, status, response, size);
+}
+
+enum MHD_Result reply_go(connection *p, const char *path, const char *cookie)
+{
+    struct MHD_Response *response =
+        MHD_create_response_from_buffer(0, "", MHD_RESPMEM_PERSISTENT);
+    if (response) {
+        header(response, "Location", path);
+        header(response, "Cache-Control", "no-store");
+        if (cookie)
+            header(response, "Set-Cookie", cookie);
+    }
+    return finish(p, 303, response, 0);
 }
 
 enum MHD_Result reply_stream(connection *p, stream *s, const char *type)
@@ -336,7 +362,7 @@ enum MHD_Result reply_asset(connection *p, const asset *a)
 {
     const bool has = already_has(p->request->if_none_match, a->hex), packed = takes_gzip(p);
     const unsigned char *bytes = packed ? a->gzip : a->bytes;
-    const size_t size = has ? 0 : (size_t)((packed ? a->gzip_end : a->bytes_end) - bytes);
+    const size_t size = (size_t)((packed ? a->gzip_end : a->bytes_end) - bytes);
     struct MHD_Response *response =
         MHD_create_response_from_buffer(size, (void *)(uintptr_t)bytes, MHD_RESPMEM_PERSISTENT);
     if (response) {
@@ -344,21 +370,16 @@ enum MHD_Result reply_asset(connection *p, const asset *a)
         /* Weak: the compressed bytes are other bytes. */
         snprintf(tag, sizeof tag, "W/\"%s\"", a->hex);
         header(response, "ETag", tag);
-        header(response, "Cache-Control", "no-cache");
+        header(response, "Cache-Control",
+               p->service->access ? "private, no-cache" : "no-cache");
         header(response, "Vary", "Accept-Encoding");
         if (packed && !has)
             header(response, "Content-Encoding", "gzip");
         if (!has)
             header(response, "Content-Type", a->type);
-        /* The page loads from this daemon only, and no other page may frame it. */
-        header(response, "Content-Security-Policy",
-               "default-src 'none'; script-src 'self'; style-src 'self'; "
-               "img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; "
-               "form-action 'none'; frame-ancestors 'none'");
-        header(response, "X-Content-Type-Options", "nosniff");
-        header(response, "Referrer-Policy", "no-referrer");
+        guard_page(response, false);
     }
-    return finish(p, has ? 304 : 200, response, size);
+    return finish(p, has ? 304 : 200, response, has ? 0 : size);
 }
 
 enum MHD_Result reply_problem(connection *p, problem *why)
@@ -373,7 +394,7 @@ enum MHD_Result reply_problem(connection *p, problem *why)
         header(response, "Content-Type", PROBLEM_TYPE);
         header(response, "Cache-Control", "no-store");
         if (status == 401)
-            header(response, "WWW-Authenticate", "Bearer realm=\"strum\"");
+            header(response, "WWW-Authenticate", CHALLENGE);
         if (status == 405) {
             char allow[64];
             method_list(p->request->route.methods, allow);

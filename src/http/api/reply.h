@@ -14,6 +14,10 @@ typedef enum reply_source { REPLY_HIT, REPLY_SOLVED, REPLY_COLLAPSED } reply_sou
 enum MHD_Result reply_entry(struct connection *p, entry *e, reply_source source);
 /* Takes over the bytes of `body`. */
 enum MHD_Result reply_text(struct connection *p, int status, const char *type, strbuf *body);
+/* Sends a page with a form, which takes over the bytes of `body`. */
+enum MHD_Result reply_page(struct connection *p, int status, strbuf *body);
+/* Sends a browser to another page of ours, with a cookie or NULL. */
+enum MHD_Result reply_go(struct connection *p, const char *path, const char *cookie);
 /* Takes over what `why` holds. */
 enum MHD_Result reply_problem(struct connection *p, problem *why);
 enum MHD_Result reply_refusal(struct connection *p, int status, const char *format, ...)

@@ -70,6 +70,7 @@ route route_find(const page *pages, const char *url)
                            .rest = url + size,
                            .open = at->open,
                            .batch = at->batch,
+                           .form = at->form,
                            .index = (size_t)(at - pages),
                            .serve = at->serve};
     }

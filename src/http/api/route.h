@@ -31,6 +31,7 @@ typedef struct page {
     unsigned methods; /* beside OPTIONS */
     bool open;        /* needs no token */
     bool batch;       /* larger bodies, and lines too */
+    bool form;        /* its body is a form of a page */
 } page;
 
 typedef struct route {
@@ -39,6 +40,7 @@ typedef struct route {
     const endpoint *endpoint; /* of an endpoint */
     bool open;                /* needs no token */
     bool batch;               /* larger bodies, and lines too */
+    bool form;                /* its body is a form of a page */
     const char *rest;         /* of the path, where `path` ends in "/" */
     size_t index;             /* of the route's counters */
     route_function *serve;    /* NULL: nothing there */

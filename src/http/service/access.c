@@ -18,7 +18,7 @@
 
 typedef struct tokens {
     size_t count;
-    cache_key digests[TOKENS_MAX];
+    cache_key digests[TOKENS_MAX], cookies[TOKENS_MAX]; /* of the tokens, of their cookies */
 } tokens;
 
 struct access_list {
@@ -32,15 +32,34 @@ static bool digest_of(const char *token, cache_key *digest)
     return key_of_parts(&(key_part){token, strlen(token)}, 1, digest);
 }
 
+static bool cookie_of(const char *token, char value[ACCESS_COOKIE_SIZE])
+{
+    static const char use[] = "strum cookie";
+    const key_part parts[] = {{use, sizeof use}, {token, strlen(token)}};
+    cache_key key;
+    if (!key_of_parts(parts, 2, &key))
+        return false;
+    key_hex(&key, value);
+    return true;
+}
+
+/* Adds the digests of a token and of its cookie. */
+static bool add_token(tokens *a, const char *token)
+{
+    char cookie[ACCESS_COOKIE_SIZE];
+    return digest_of(token, &a->digests[a->count]) && cookie_of(token, cookie) &&
+           digest_of(cookie, &a->cookies[a->count]);
+}
+
 static bool add_line(tokens *a, char *line, const char **why)
 {
     line[strcspn(line, " \t\r\n")] = '\0';
     if (*line == '\0' || *line == '#')
         return true;
-    *why = strlen(line) < TOKEN_MIN                  ? "a token has at least 16 characters"
-           : a->count == TOKENS_MAX                  ? "more than 1024 tokens"
-           : !digest_of(line, &a->digests[a->count]) ? "out of memory"
-                                                     : NULL;
+    *why = strlen(line) < TOKEN_MIN ? "a token has at least 16 characters"
+           : a->count == TOKENS_MAX ? "more than 1024 tokens"
+           : !add_token(a, line)    ? "out of memory"
+                                    : NULL;
     a->count++;
     return *why == NULL;
 }
@@ -109,13 +128,18 @@ void access_free(access_list *a)
     free(a);
 }
 
-/* Compares with all tokens, each completely: the time reveals nothing about a guess. */
-static bool is_known(access_list *a, const cache_key *given)
+/* Compares with all tokens, or all cookies, each completely: the time reveals nothing about a
+ * guess. */
+static bool is_known(access_list *a, bool cookie, const char *guess)
 {
+    cache_key given;
     bool found = false;
+    if (!digest_of(guess, &given))
+        return false;
     pthread_rwlock_rdlock(&a->lock);
+    const cache_key *digests = cookie ? a->now->cookies : a->now->digests;
     for (size_t i = 0; i < a->now->count; i++)
-        found |= CRYPTO_memcmp(&a->now->digests[i], given, sizeof *given) == 0;
+        found |= CRYPTO_memcmp(&digests[i], &given, sizeof given) == 0;
     pthread_rwlock_unlock(&a->lock);
     return found;
 }
@@ -126,7 +150,29 @@ bool access_allows(access_list *a, const char *authorization)
         return true;
     if (!authorization || strncasecmp(authorization, "Bearer ", 7) != 0)
         return false;
-    cache_key given;
-    const char *token = authorization + 7 + strspn(authorization + 7, " ");
-    return digest_of(token, &given) && is_known(a, &given);
+    return is_known(a, false, authorization + 7 + strspn(authorization + 7, " "));
+}
+
+bool access_cookie(access_list *a, const char *token, char value[ACCESS_COOKIE_SIZE])
+{
+    return is_known(a, false, token) && cookie_of(token, value);
+}
+
+bool access_allows_cookie(access_list *a, const char *cookies)
+{
+    if (!a)
+        return true;
+    static const char name[] = ACCESS_COOKIE "=";
+    for (const char *at = cookies; at && *at; at += strspn(at, "; ")) {
+        const size_t size = strcspn(at, ";");
+        if (size == sizeof name - 1 + ACCESS_COOKIE_SIZE - 1 &&
+            strncmp(at, name, sizeof name - 1) == 0) {
+            char value[ACCESS_COOKIE_SIZE];
+            memcpy(value, at + sizeof name - 1, ACCESS_COOKIE_SIZE - 1);
+            value[ACCESS_COOKIE_SIZE - 1] = '\0';
+            return is_known(a, true, value);
+        }
+        at += size;
+    }
+    return false;
 }

@@ -18,4 +18,13 @@ void access_free(access_list *a);
  * client may ask. */
 bool access_allows(access_list *a, const char *authorization);
 
+/* The name and the size of a cookie that stands for a token without being it. It is the same on all
+ * daemons with that token, and holds as long as the token is in the file. */
+#define ACCESS_COOKIE      "strum"
+#define ACCESS_COOKIE_SIZE 65
+/* Writes the cookie's value; returns false if the token is not known. */
+bool access_cookie(access_list *a, const char *token, char value[ACCESS_COOKIE_SIZE]);
+/* Decides by the value of Cookie (NULL: there was none). */
+bool access_allows_cookie(access_list *a, const char *cookies);
+
 #endif

@@ -12,8 +12,8 @@
 #include "http/service/log.h"
 
 /* The statuses this daemon answers with; the last row counts any other. */
-static const int statuses[] = {200, 204, 304, 400, 401, 404, 405,
-                               413, 415, 422, 500, 501, 503, 0};
+static const int statuses[] = {200, 204, 303, 304, 400, 401, 403, 404,
+                               405, 413, 415, 422, 500, 501, 503, 0};
 #define STATUSES (sizeof statuses / sizeof *statuses)
 
 /* Latency buckets: upper bounds in microseconds; the last bucket takes the rest. */

@@ -21,7 +21,8 @@ typedef struct service {
     access_list *access; /* NULL: no token is needed */
     thread_pool *thread_pool;
     metrics *metrics;
-    /* Set by the layer above: */
+    /* Set by the layers above: */
+    bool local;                     /* only this machine can reach the listening socket */
     const struct page *pages;       /* the paths served beside the endpoints */
     struct MHD_Response *no_memory; /* sent when no other response can be made */
     atomic_int batches;             /* under way */

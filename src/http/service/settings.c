@@ -81,7 +81,15 @@ const setting settings_table[] = {
     {"retry_after_s", SETTING_COUNT, AT(retry_after_s), 0, 3600, "1",
      "minimum of the seconds named in Retry-After with 503, which follow from the queue"},
     {"cors_origins", SETTING_TEXT, AT(cors_origins), 0, 0, "",
-     "origins whose pages may read answers: a comma-separated list, or *; none by default"},
+     "origins whose pages may ask and read answers: a comma-separated list, or *; pages of "
+     "others get "
+     "403"},
+    {"allowed_hosts", SETTING_TEXT, AT(allowed_hosts), 0, 0, "",
+     "names, without a port, by which requests may ask for this daemon in Host: a "
+     "comma-separated "
+     "list, or *; on loopback localhost, 127.0.0.0/8 and [::1] always may, and others only if "
+     "they "
+     "stand here (a proxy passes its own name on); elsewhere an empty list allows every name"},
     {"log_requests", SETTING_CHOICE, AT(log_requests), 0, LOG_ALL, "errors",
      "requests to log: none, errors (5xx), refusals (4xx and 5xx) or all"},
     {"log_sample", SETTING_COUNT, AT(log_sample), 1, 1e9, "1",

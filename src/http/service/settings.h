@@ -29,7 +29,7 @@ typedef struct settings {
     int64_t connections, connection_memory_bytes;
     double idle_timeout_s, request_timeout_s, solve_timeout_s, drain_timeout_s;
     int64_t retry_after_s;
-    char *cors_origins, *token_file;
+    char *cors_origins, *allowed_hosts, *token_file;
     int64_t log_requests; /* enum log_requests */
     int64_t log_sample;
 } settings;

@@ -2,20 +2,35 @@
 #include "http/transport/connections.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include "http/service/clock.h"
 
 #define REAPER_PERIOD_MS 100
 
+/* A connection that lingers is read for so long, and so many bytes of it. */
+#define LINGER_MS        2000
+#define LINGER_BYTES     (1 << 20)
+#define LINGER_PERIOD_MS 10
+
+typedef struct lingering {
+    int fd; /* our own copy: libmicrohttpd closes its own */
+    int64_t until_ms;
+    size_t bytes;
+} lingering;
+
 struct connections {
     pthread_mutex_t lock;
-    pthread_cond_t end;
+    pthread_cond_t change; /* the end, or one that lingers */
     pthread_t reaper;
     bool ending;
     connection *first;
+    size_t lingering_count;
+    lingering lingering[CONNECTIONS_LINGER];
     service *service;
     const handlers *handlers;
 };
@@ -43,18 +58,57 @@ static void inspect(connection *p, int64_t now)
     }
 }
 
+/* Reads and drops what has come. Returns whether more is waited for. */
+static bool drop(lingering *l, int64_t now)
+{
+    char bytes[16384];
+    while (l->bytes < LINGER_BYTES && now < l->until_ms) {
+        const ssize_t got = recv(l->fd, bytes, sizeof bytes, MSG_DONTWAIT);
+        if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR))
+            return false;
+        if (got < 0)
+            return true;
+        l->bytes += (size_t)got;
+    }
+    return false;
+}
+
+static void drop_all(connections *all, int64_t now)
+{
+    for (size_t i = 0; i < all->lingering_count;) {
+        if (drop(&all->lingering[i], now)) {
+            i++;
+        } else {
+            close(all->lingering[i].fd);
+            all->lingering[i] = all->lingering[--all->lingering_count];
+        }
+    }
+}
+
+/* Under the lock. */
+static void wait_ms(connections *all, int ms)
+{
+    struct timespec until;
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_nsec += (long)ms * 1000000;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(&all->change, &all->lock, &until);
+}
+
 static void *reap(void *argument)
 {
     connections *all = argument;
+    int64_t due = clock_ms() + REAPER_PERIOD_MS;
     pthread_mutex_lock(&all->lock);
     while (!all->ending) {
-        struct timespec until;
-        clock_gettime(CLOCK_MONOTONIC, &until);
-        until.tv_nsec += REAPER_PERIOD_MS * 1000000;
-        until.tv_sec += until.tv_nsec / 1000000000;
-        until.tv_nsec %= 1000000000;
-        pthread_cond_timedwait(&all->end, &all->lock, &until);
+        const int64_t left = due - clock_ms();
+        wait_ms(all, all->lingering_count ? LINGER_PERIOD_MS : left > 0 ? (int)left : 0);
         const int64_t now = clock_ms();
+        drop_all(all, now);
+        if (now < due)
+            continue;
+        due = now + REAPER_PERIOD_MS;
         for (connection *p = all->first; p; p = p->next)
             inspect(p, now);
     }
@@ -72,11 +126,11 @@ connections *connections_new(service *s, const handlers *h)
     pthread_condattr_t monotonic;
     pthread_condattr_init(&monotonic);
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
-    pthread_cond_init(&all->end, &monotonic);
+    pthread_cond_init(&all->change, &monotonic);
     pthread_condattr_destroy(&monotonic);
     pthread_mutex_init(&all->lock, NULL);
     if (pthread_create(&all->reaper, NULL, reap, all) != 0) {
-        pthread_cond_destroy(&all->end);
+        pthread_cond_destroy(&all->change);
         pthread_mutex_destroy(&all->lock);
         free(all);
         return NULL;
@@ -90,10 +144,12 @@ void connections_free(connections *all)
         return;
     pthread_mutex_lock(&all->lock);
     all->ending = true;
-    pthread_cond_signal(&all->end);
+    pthread_cond_signal(&all->change);
     pthread_mutex_unlock(&all->lock);
     pthread_join(all->reaper, NULL);
-    pthread_cond_destroy(&all->end);
+    while (all->lingering_count > 0)
+        close(all->lingering[--all->lingering_count].fd);
+    pthread_cond_destroy(&all->change);
     pthread_mutex_destroy(&all->lock);
     free(all);
 }
@@ -127,10 +183,32 @@ connection *connection_open(connections *all, struct MHD_Connection *mhd)
     return p;
 }
 
+void connection_linger(connection *p)
+{
+    p->lingers = true;
+}
+
+/* All of the answer is with the kernel. Under the lock. */
+static void begin_lingering(const connection *p)
+{
+    connections *all = p->all;
+    if (all->lingering_count == CONNECTIONS_LINGER)
+        return;
+    const int fd = fcntl(p->fd, F_DUPFD_CLOEXEC, 0);
+    if (fd < 0)
+        return;
+    shutdown(fd, SHUT_WR); /* the client sees the end of the answer */
+    all->lingering[all->lingering_count++] =
+        (lingering){.fd = fd, .until_ms = clock_ms() + LINGER_MS};
+    pthread_cond_signal(&all->change);
+}
+
 void connection_close(connection *p)
 {
     connections *all = p->all;
     pthread_mutex_lock(&all->lock);
+    if (p->lingers)
+        begin_lingering(p);
     *(p->previous ? &p->previous->next : &all->first) = p->next;
     if (p->next)
         p->next->previous = p->previous;

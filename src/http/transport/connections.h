@@ -30,11 +30,15 @@ typedef struct connection {
     int fd;
     _Atomic int64_t deadline_ms;
     _Atomic connection_phase
-        phase; /* to and from CONNECTION_WAITING under the lock of connections */
+        phase;    /* to and from CONNECTION_WAITING under the lock of connections */
+    bool lingers; /* connection_linger */
     struct connection *next, *previous;
 } connection;
 
 typedef struct connections connections;
+
+/* Maximum number of connections that linger at once, beside those counted by the settings. */
+#define CONNECTIONS_LINGER 256
 
 /* What the layer above does with a connection's requests. On the event thread, but for
  * give_up. libmicrohttpd calls thrice for a request: with its headers, with pieces of its body,
@@ -62,6 +66,10 @@ void connections_free(connections *all);
 connection *connection_open(connections *all, struct MHD_Connection *mhd);
 /* Must be called before the descriptor is closed, so that the reaper no longer uses it. */
 void connection_close(connection *p);
+/* The answer is sent before the request was read whole: what still comes is read and dropped for a
+ * while after the connection's end. Otherwise the kernel resets the connection, and the answer is
+ * lost to a client, or a proxy, that sends all before it reads. */
+void connection_linger(connection *p);
 /* Begins the next phase, which must end within `seconds`. */
 void connection_enter(connection *p, connection_phase phase, double seconds);
 /* Gives up `p` if the daemon is stopping: to be called once it is in CONNECTION_WAITING. Either

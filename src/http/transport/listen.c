@@ -35,6 +35,7 @@ static void name_of(int fd, listen_at *at)
     if (getsockname(fd, (struct sockaddr *)&address, &size) == 0)
         getnameinfo((struct sockaddr *)&address, size, host, sizeof host, port, sizeof port,
                     NI_NUMERICHOST | NI_NUMERICSERV);
+    at->loopback = is_loopback((struct sockaddr *)&address);
     sscanf(port, "%d", &at->port);
     snprintf(at->name, sizeof at->name, address.ss_family == AF_INET6 ? "[%s]:%s" : "%s:%s",
              host, port);

@@ -9,6 +9,7 @@
 
 typedef struct listen_at {
     int fd;
+    bool loopback;               /* only this machine can reach it */
     bool inherited;              /* other processes accept from it too: it outlives us */
     int port;                    /* the one taken if 0 was asked for */
     char name[LISTEN_NAME_SIZE]; /* "127.0.0.1:8080", "[::1]:8080" */

@@ -112,7 +112,7 @@ __attribute__((format(printf, 2, 0))) static void on_note(void *cls, const char 
 static void raise_file_limit(int64_t count)
 {
     struct rlimit limit;
-    const rlim_t wanted = (rlim_t)count + 64;
+    const rlim_t wanted = (rlim_t)count + CONNECTIONS_LINGER + 64;
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted)
         return;
     limit.rlim_cur = wanted < limit.rlim_max ? wanted : limit.rlim_max;
@@ -149,6 +149,7 @@ bool server_start(server *s, service *with, const handlers *h, char fault[256])
     *s = (server){.service = with, .handlers = h, .at.fd = -1};
     if (!listen_open(set->listen, set->allow_non_loopback || with->access, &s->at, fault))
         return false;
+    with->local = s->at.loopback;
     raise_file_limit(set->connections);
     if (!(s->connections = connections_new(with, h))) {
         snprintf(fault, 256, "out of memory or threads");

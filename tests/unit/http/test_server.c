@@ -141,12 +141,12 @@ static void survives(running *r, const char *begin, const char *end, int wanted)
         assert_true(n < 2000);
         char question[1024];
         snprintf(question, sizeof question,
-                 "POST /v1/catenary/frequencies HTTP/1.1\r\nHost: a\r\nContent-Length: %zu\r\n"
-                 "\r\n%s%d%s",
+                 "POST /v1/catenary/frequencies HTTP/1.1\r\nHost: localhost\r\n"
+                 "Content-Type: application/json\r\nContent-Length: %zu\r\n\r\n%s%d%s",
                  strlen(begin) + 5 + strlen(end), begin, ++fresh, end);
         const int fd = dial(r);
         /* The connection is there: what fails now is the request's. */
-        assert_int_equal(exchange(fd, "GET /nothing HTTP/1.1\r\nHost: a\r\n\r\n"), 404);
+        assert_int_equal(exchange(fd, "GET /nothing HTTP/1.1\r\nHost: localhost\r\n\r\n"), 404);
         allocations = 0;
         fails_from = n;
         const int status = exchange(fd, question);
@@ -196,7 +196,7 @@ static void a_key_without_memory(void **state)
 {
     const running *r = *state;
     char question[256];
-    snprintf(question, sizeof question, "GET /v1/results/%064d HTTP/1.1\r\nHost: a\r\n\r\n", 0);
+    snprintf(question, sizeof question, "GET /v1/results/%064d HTTP/1.1\r\nHost: localhost\r\n\r\n", 0);
     for (int once = 0; once < 2; once++) {
         only_once = once;
         int answered = 0;
