@@ -15,6 +15,7 @@ struct flight {
     slot slot;
     waiter *waiters;
     _Atomic bool cancel;
+    bool begun;
     /* While `cancel` is set: */
     int64_t abandoned_ms;
     struct flight *before, *after; /* in the order in which they were abandoned */
@@ -235,6 +236,21 @@ cache_role cache_acquire(cache *c, const cache_key *key, waiter *w, entry **hit,
 const _Atomic bool *flight_cancel(const flight *f)
 {
     return &f->cancel;
+}
+
+void cache_begin(cache *c, flight *f)
+{
+    pthread_mutex_lock(&c->lock);
+    f->begun = true;
+    pthread_mutex_unlock(&c->lock);
+}
+
+bool cache_is_queued(cache *c, const waiter *w)
+{
+    pthread_mutex_lock(&c->lock);
+    const bool queued = w->flight && !w->flight->begun;
+    pthread_mutex_unlock(&c->lock);
+    return queued;
 }
 
 void cache_publish_progress(cache *c, flight *f, const progress *so_far)

@@ -68,6 +68,10 @@ typedef enum cache_role {
 cache_role cache_acquire(cache *c, const cache_key *key, waiter *w, entry **hit, flight **lead);
 /* Returns a flag that is true once every request has stopped waiting: endpoints poll it. */
 const _Atomic bool *flight_cancel(const flight *f);
+/* A worker has taken the flight up. */
+void cache_begin(cache *c, flight *f);
+/* Whether `w` waits for a flight that no worker has taken up. */
+bool cache_is_queued(cache *c, const waiter *w);
 /* Calls on_progress of every request that waits for the flight. */
 void cache_publish_progress(cache *c, flight *f, const progress *so_far);
 /* Ends a flight: stores `outcome` (if its status is 200 and it fits) and calls on_done of every

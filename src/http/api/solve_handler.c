@@ -80,6 +80,7 @@ void solve_flight(service *s, const evaluation *a, const cache_key *key, flight 
                          .cache = s->cache,
                          .flight = f};
     const bool share = is_costly(s, a);
+    cache_begin(s->cache, f);
     entry *e = share && !*t.observer.cancel ? find_stored(s, key) : NULL;
     if (!e) {
         e = entry_solve(a, key, &t.observer);
@@ -163,6 +164,14 @@ void solve_give_up(connection *p, const char *why)
         return;
     static const cache_key none = {{0}};
     w->on_done(w, unavailable(&none, why));
+}
+
+void solve_look_in(connection *p, int64_t now_ms)
+{
+    stream *s = p->request->stream;
+    const int64_t at = s ? atomic_load(&s->pulse_at_ms) : 0;
+    if (at && now_ms >= at)
+        stream_wake(s);
 }
 
 static enum MHD_Result reply_outcome(connection *p)
