@@ -72,10 +72,10 @@ static entry *find_stored(service *s, const cache_key *key)
     return e;
 }
 
-void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
-                  double given_us)
+/* Returns false if the solve was given up and a request waits for it again by now. */
+static bool try_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
+                       double queue_us)
 {
-    const double queue_us = given_us > 0 ? clock_us() - given_us : 0;
     progress_report t = {{.cancel = flight_cancel(f), .progress = report_progress},
                          .cache = s->cache,
                          .flight = f};
@@ -92,10 +92,19 @@ void solve_flight(service *s, const evaluation *a, const cache_key *key, flight 
         e->queue_us = queue_us;
     if (lasting)
         reply_prebuild(s, e);
-    cache_complete(s->cache, f, e);
+    const bool complete = cache_complete(s->cache, f, e);
     if (lasting && share && !e->from_store)
         store_keep(s->store, e);
     entry_unref(e);
+    return complete;
+}
+
+void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
+                  double given_us)
+{
+    const double queue_us = given_us > 0 ? clock_us() - given_us : 0;
+    while (!try_flight(s, a, key, f, queue_us))
+        ;
 }
 
 /* As solve_flight, for a request that gives only the key. */
