@@ -15,6 +15,7 @@ struct flight {
     slot slot;
     waiter *waiters;
     _Atomic bool cancel;
+    bool begun;
     /* While `cancel` is set: */
     int64_t abandoned_ms;
     struct flight *before, *after; /* in the order in which they were abandoned */
@@ -182,7 +183,7 @@ static void abandon(cache *c, flight *f)
     atomic_store(&f->cancel, true);
 }
 
-/* An abandoned flight has ended. */
+/* An abandoned flight has ended, or somebody waits for it again. */
 static void forget(cache *c, flight *f)
 {
     *(f->before ? &f->before->after : &c->abandoned_first) = f->after;
@@ -207,11 +208,6 @@ cache_role cache_acquire(cache *c, const cache_key *key, waiter *w, entry **hit,
     pthread_mutex_lock(&c->lock);
     slot *stored = slot_find(c, SLOT_CANONICAL, key);
     slot *flying = stored ? NULL : slot_find(c, SLOT_FLIGHT, key);
-    if (flying && atomic_load(&((flight *)flying->owner)->cancel)) {
-        /* Its answer will be that it was given up: begin again beside it. */
-        slot_remove(c, flying);
-        flying = NULL;
-    }
     if (stored) {
         struct cached *s = touch(c, stored);
         recognise(c, s, &w->raw);
@@ -219,7 +215,13 @@ cache_role cache_acquire(cache *c, const cache_key *key, waiter *w, entry **hit,
         c->count.hits++;
         turn = ROLE_HIT;
     } else if (flying) {
-        wait_for(flying->owner, w);
+        flight *f = flying->owner;
+        /* Somebody waits again. If the solve has seen the flag, cache_complete says so. */
+        if (atomic_load(&f->cancel)) {
+            forget(c, f);
+            atomic_store(&f->cancel, false);
+        }
+        wait_for(f, w);
         c->count.joins++;
         turn = ROLE_FOLLOWER;
     } else if ((*lead = take_off(c, key))) {
@@ -237,6 +239,21 @@ const _Atomic bool *flight_cancel(const flight *f)
     return &f->cancel;
 }
 
+void cache_begin(cache *c, flight *f)
+{
+    pthread_mutex_lock(&c->lock);
+    f->begun = true;
+    pthread_mutex_unlock(&c->lock);
+}
+
+bool cache_is_queued(cache *c, const waiter *w)
+{
+    pthread_mutex_lock(&c->lock);
+    const bool queued = w->flight && !w->flight->begun;
+    pthread_mutex_unlock(&c->lock);
+    return queued;
+}
+
 void cache_publish_progress(cache *c, flight *f, const progress *so_far)
 {
     pthread_mutex_lock(&c->lock);
@@ -246,9 +263,13 @@ void cache_publish_progress(cache *c, flight *f, const progress *so_far)
     pthread_mutex_unlock(&c->lock);
 }
 
-void cache_complete(cache *c, flight *f, entry *outcome)
+bool cache_complete(cache *c, flight *f, entry *outcome)
 {
     pthread_mutex_lock(&c->lock);
+    if (outcome && outcome->given_up && f->waiters) {
+        pthread_mutex_unlock(&c->lock);
+        return false;
+    }
     slot_remove(c, &f->slot);
     c->count.flights--;
     if (atomic_load(&f->cancel))
@@ -270,6 +291,7 @@ void cache_complete(cache *c, flight *f, entry *outcome)
         w->on_done(w, entry_ref(outcome));
     }
     free(f);
+    return true;
 }
 
 bool cache_release(cache *c, waiter *w)

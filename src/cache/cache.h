@@ -66,13 +66,19 @@ typedef enum cache_role {
 } cache_role;
 
 cache_role cache_acquire(cache *c, const cache_key *key, waiter *w, entry **hit, flight **lead);
-/* Returns a flag that is true once every request has stopped waiting: endpoints poll it. */
+/* Returns a flag that is true while every request has stopped waiting: endpoints poll it. A request
+ * that asks again before the flight ends clears it and waits for the same solve. */
 const _Atomic bool *flight_cancel(const flight *f);
+/* A worker has taken the flight up. */
+void cache_begin(cache *c, flight *f);
+/* Whether `w` waits for a flight that no worker has taken up. */
+bool cache_is_queued(cache *c, const waiter *w);
 /* Calls on_progress of every request that waits for the flight. */
 void cache_publish_progress(cache *c, flight *f, const progress *so_far);
 /* Ends a flight: stores `outcome` (if its status is 200 and it fits) and calls on_done of every
- * request that waits. The caller keeps its own reference; NULL says that memory ran out. */
-void cache_complete(cache *c, flight *f, entry *outcome);
+ * request that waits. The caller keeps its own reference; NULL says that memory ran out. Returns
+ * false, the flight going on, if `outcome` was given up and a request waits again: solve it anew. */
+bool cache_complete(cache *c, flight *f, entry *outcome);
 /* `w` stops waiting; the last one to do so cancels the flight. Returns true when on_done will
  * not be called, and the caller must do its work; false when it is being called. */
 bool cache_release(cache *c, waiter *w);

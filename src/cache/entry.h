@@ -18,6 +18,7 @@ typedef struct entry {
     double cpu_us, estimate_us; /* of the endpoint: time of the processor, and its estimate */
     bool stored;                /* set by cache_complete, before anybody is woken */
     bool transient;             /* might come out otherwise another time: never stored */
+    bool given_up;   /* a refusal: nobody waited any more */
     bool from_store;            /* from the shared store: solved elsewhere */
     /* What http has made ready for sending the entry again: set before the entry is shared,
      * dropped with the last reference. It may point into `body` as long as it holds the body

@@ -63,6 +63,7 @@ entry *entry_solve(const evaluation *a, const cache_key *key, observer *w)
     int status = 200;
     if (*w->cancel) {
         status = 503;
+        w->cancelled = true;
         problem_set(&p, status, "nobody waits for this answer any more");
         problem_write(&p, NULL, &body);
     } else if (!evaluation_answer(a, hex, w, &body, &p)) {
@@ -75,6 +76,7 @@ entry *entry_solve(const evaluation *a, const cache_key *key, observer *w)
     if (e) {
         e->solve_us = w->solve_us;
         e->cpu_us = w->cpu_us;
+        e->given_up = status == 503 && w->cancelled;
         e->estimate_us = evaluation_cost_us(a);
         e->transient = w->transient;
     }

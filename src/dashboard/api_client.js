@@ -53,10 +53,9 @@ export async function askLive(path, request, signal, progress) {
     text += value;
     for (let end = text.indexOf('\n\n'); streams && end >= 0; end = text.indexOf('\n\n')) {
       const [, name, data] = text.slice(0, end).match(/^event: (\w+)\ndata: (.*)$/s) ?? [];
-      if (!name) break;
       text = text.slice(end + 2);
       if (name === 'progress') progress(JSON.parse(data));
-      else return finished(name === 'result', data, performance.now() - began);
+      else if (name === 'result' || name === 'problem') return finished(name === 'result', data, performance.now() - began);
     }
   }
   return finished(response.ok && !streams, text, performance.now() - began);

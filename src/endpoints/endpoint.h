@@ -28,6 +28,7 @@ typedef struct observer {
     double solve_us; /* set: the time spent in the endpoint */
     double cpu_us;   /* set: of that, the time of the processor */
     bool transient;  /* set: see below */
+    bool cancelled;  /* set: `cancel` was seen to be true */
 } observer;
 
 /* What an answer is written into, and what may end it early. */

@@ -132,7 +132,11 @@ void answer_progress(const answer *a, int64_t evaluations, double best, const ch
 
 bool answer_cancelled(const answer *a)
 {
-    return a->cancel != NULL && atomic_load_explicit(a->cancel, memory_order_relaxed);
+    if (a->cancel == NULL || !atomic_load_explicit(a->cancel, memory_order_relaxed))
+        return false;
+    if (a->observer != NULL)
+        a->observer->cancelled = true;
+    return true;
 }
 
 static bool is_cancelled(void *a)

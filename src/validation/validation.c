@@ -141,6 +141,8 @@ static void run_case(const validation_case *one, const answer *a, outcome *o)
     evaluation *asked = e ? evaluation_read(e, one->body, one->body_size, &limits, &p) : NULL;
     if (asked)
         evaluation_answer(asked, "", &w, &answered, &p);
+    if (w.cancelled && a->observer != NULL)
+        a->observer->cancelled = true;
     if (expect == NULL || p.failed)
         o->failed = true;
     else if (p.status >= 500)

@@ -182,7 +182,8 @@ def test_who_leaves_ends_it(start_strumd):
     strumd = start_strumd("--workers", "2")
     connection = open_batch(strumd, [item(CHEAP)] + [item({**ENDLESS, "points": 9000 + n}, FORCED) for n in range(20)])
     read_until(connection, b"\n")
-    wait_metric(strumd, "workers_busy", 1)  # one worker is for others
+    wait_metric(strumd, "lane_jobs", 19)  # they wait: one worker is for others
+    wait_metric(strumd, "workers_busy", 1)
     connection.close()
     wait_metric(strumd, "workers_busy", 0)
     wait_metric(strumd, "requests_busy", 1)
@@ -225,9 +226,20 @@ def test_others_are_served_beside_batches(start_strumd, workers):
 def test_a_batch_is_cut_short_with_a_word(start_strumd):
     strumd = start_strumd(*ONE_WORKER, "--solve-timeout-s", "0.5")
     got = answers(post_batch(strumd, [item(CHEAP), item(ENDLESS, FORCED), item(CHEAP)]))
-    assert len(got) == 2
+    assert len(got) == 3
     assert json.loads(got[1])["index"] == 1 and "solve_timeout_s" in got[1]
     wait_metric(strumd, "workers_busy", 0)
+
+
+def test_a_batch_that_cannot_go_on_says_so_in_each_item(start_strumd):
+    """Far more than the window holds: a client that counts lines misses none."""
+    strumd = start_strumd(*ONE_WORKER, "--solve-timeout-s", "0.5")
+    got = [json.loads(line) for line in answers(post_batch(
+        strumd, [item(CHEAP), item(ENDLESS, FORCED)] + [item(cheap(n)) for n in range(1000)]))]
+    assert len(got) == 1002 and "result" in got[0]
+    for index, line in enumerate(got[1:], 1):
+        assert "result" in line or (line["index"] == index and line["status"] == 503)
+    assert "solve_timeout_s" in got[1]["detail"] and "solve_timeout_s" in got[1001]["detail"]
 
 
 @pytest.mark.parametrize("signals", [1, 2])

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cheap and costly questions beside each other: who waits for whom, and what the daemon tells of it."""
 import contextlib
+import json
 import math
 import re
+import time
 
 from conftest import CHEAP, ENDLESS, FORCED
-from test_load import ask, wait_metric
+from test_events import open_events, read_until
+from test_load import answers_of, ask, wait_metric
 
 
 def lane(strumd, name, metric="lane_seconds"):
@@ -107,3 +110,33 @@ def test_the_estimate_is_told(start_strumd):
     told = timing(strumd.post({**CHEAP, "sag_parameter": 0.7}))
     assert set(told) == {"read", "queue", "solve", "cpu", "estimate"}
     assert 0 < told["cpu"] <= told["solve"] + 0.01 and told["estimate"] > 0
+
+
+def test_an_event_stream_that_waits_says_so(start_strumd):
+    """A queue event soon, then a comment in each silence of 10 s."""
+    strumd = start_strumd("--workers", "1")
+    with busy(strumd, 1):
+        begun = time.monotonic()
+        connection = open_events(strumd, endless(100))
+        got = read_until(connection, b"event: queue\n")
+        got += read_until(connection, b": still at it\n\n")
+        assert time.monotonic() - begun >= 10
+        told = re.search(rb'event: queue\ndata: (\{.*\})\n\n', got).group(1)
+        assert json.loads(told)["waiting"] == 1 and json.loads(told)["backlog_s"] > 0
+        connection.close()
+
+
+def test_who_asks_again_for_an_abandoned_question_joins_it(start_strumd):
+    """It waits for the one worker when its client leaves; it is asked again, and solved once."""
+    strumd = start_strumd("--workers", "1", "--cheap-us", "0", "--inline-us", "0")
+    with busy(strumd, 1):
+        leaving, = ask(strumd, [CHEAP])
+        wait_metric(strumd, "queue_depth", 1)
+        leaving.close()
+        wait_metric(strumd, "abandoned", 1)
+        again, = ask(strumd, [CHEAP])
+        wait_metric(strumd, "cache_joins_total", 1)
+        assert strumd.metric("abandoned") == 0 and strumd.metric("flights") == 2
+    (status, headers, _), = answers_of([again])
+    assert status == 200 and headers["cache-status"] == "strum; fwd=miss; collapsed"
+    assert strumd.metric("solves_total") == 1

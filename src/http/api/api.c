@@ -40,6 +40,7 @@ static const handlers served = {
     .finish = dispatch_finish,
     .end = dispatch_end,
     .give_up = solve_give_up,
+    .look_in = solve_look_in,
 };
 
 static const char *path_of(size_t index)

@@ -288,17 +288,32 @@ static void end(stream *st)
         stream_unref(st);
 }
 
+/* The batch cannot go on: each item that has no line yet says so in its place. What was solved by
+ * then is still sent. */
+static stream_turn write_rest(batch *b, const char *given_up)
+{
+    strbuf *out = &b->stream.out;
+    pthread_mutex_lock(&b->lock);
+    while (b->sent < b->total && out->size < LINES_SIZE) {
+        slot *s = slot_of(b, b->sent);
+        const bool begun = b->sent < b->begun, done = begun && s->state == SLOT_DONE;
+        write_line(b->sent, done ? s->outcome : NULL, given_up, out);
+        b->sent++;
+    }
+    pthread_mutex_unlock(&b->lock);
+    return STREAM_PIECE;
+}
+
 static stream_turn next(stream *st)
 {
     batch *b = (batch *)(void *)st;
     const char *given_up = atomic_load(&st->given_up);
-    if (b->ended || b->sent == b->total)
+    if (b->sent == b->total || (b->ended && !given_up))
         return STREAM_END;
-    if (given_up) {
+    if (given_up && !b->ended)
         end(st);
-        write_line(b->sent, NULL, given_up, &st->out);
-        return STREAM_PIECE;
-    }
+    if (given_up)
+        return write_rest(b, given_up);
     pthread_mutex_lock(&b->lock);
     for (slot *s = slot_of(b, b->sent); s->state == SLOT_DONE && st->out.size < LINES_SIZE;
          s = slot_of(b, b->sent)) {

@@ -7,15 +7,23 @@
 #include <stdlib.h>
 
 #include "http/api/reply.h"
+#include "http/service/clock.h"
+
+/* Who waits so long is told of the queue. */
+#define QUEUE_MS 250
+/* In a silence a comment is sent so often: proxies cut silent connections, and a client sees that
+ * this one lives. */
+#define PULSE_MS 10000
 
 typedef struct events {
     stream stream;
     waiter waiter;
-    cache *cache;
+    service *service;
     pthread_mutex_t lock; /* of what follows */
     progress last;        /* a slow client gets only the latest */
     char what[80];
     bool told, done, ended;
+    bool said_queued;
     entry *outcome; /* referenced; NULL when done: memory ran out */
 } events;
 
@@ -80,6 +88,32 @@ static void write_last(const entry *outcome, const char *given_up, strbuf *out)
     strbuf_add_string(out, "\n\n");
 }
 
+static void write_queue(service *s, strbuf *out)
+{
+    const thread_pool_counters pool = thread_pool_count(s->thread_pool);
+    json_writer json = {.out = out};
+    strbuf_add_string(out, "event: queue\ndata: ");
+    json_open_object(&json);
+    json_put_integer(
+        &json, "waiting",
+        (int64_t)(pool.queued[LANE_CHEAP] + pool.queued[LANE_COSTLY] + pool.queued[LANE_LONG]));
+    json_put_number(&json, "backlog_s", thread_pool_backlog_s(s->thread_pool));
+    json_close_object(&json);
+    strbuf_add_string(out, "\n\n");
+}
+
+/* Nothing is new: after some time says that it still waits. Returns whether it did. */
+static bool write_pulse(events *e)
+{
+    const bool first = !e->said_queued;
+    e->said_queued = true;
+    if (!first)
+        strbuf_add_string(&e->stream.out, ": still at it\n\n");
+    else if (cache_is_queued(e->service->cache, &e->waiter))
+        write_queue(e->service, &e->stream.out);
+    return e->stream.out.size > 0;
+}
+
 static stream_turn next(stream *s)
 {
     events *e = (events *)(void *)s;
@@ -87,7 +121,7 @@ static stream_turn next(stream *s)
         return STREAM_END;
     const char *given_up = atomic_load(&s->given_up);
     stream_turn turn = STREAM_PIECE;
-    if (given_up && cache_release(e->cache, &e->waiter)) {
+    if (given_up && cache_release(e->service->cache, &e->waiter)) {
         stream_unref(s); /* the waiter's */
         write_last(NULL, given_up, &s->out);
         e->ended = true;
@@ -104,13 +138,20 @@ static stream_turn next(stream *s)
         turn = STREAM_WAIT;
     }
     pthread_mutex_unlock(&e->lock);
+    const bool due = turn == STREAM_WAIT && clock_ms() >= atomic_load(&s->pulse_at_ms);
+    if (due && write_pulse(e))
+        turn = STREAM_PIECE;
+    if (due || turn == STREAM_PIECE) {
+        e->said_queued = true;
+        atomic_store(&s->pulse_at_ms, clock_ms() + PULSE_MS);
+    }
     return turn;
 }
 
 static void end(stream *s)
 {
     events *e = (events *)(void *)s;
-    if (cache_release(e->cache, &e->waiter))
+    if (cache_release(e->service->cache, &e->waiter))
         stream_unref(s);
 }
 
@@ -133,7 +174,8 @@ waiter *events_open(connection *p)
     stream_init(&e->stream, p);
     stream_ref(&e->stream); /* the waiter's */
     pthread_mutex_init(&e->lock, NULL);
-    e->cache = p->service->cache;
+    e->service = p->service;
+    e->stream.pulse_at_ms = clock_ms() + QUEUE_MS;
     e->waiter =
         (waiter){.raw = p->request->waiter.raw, .on_done = wake, .on_progress = on_progress};
     p->request->stream = &e->stream;

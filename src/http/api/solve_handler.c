@@ -72,14 +72,15 @@ static entry *find_stored(service *s, const cache_key *key)
     return e;
 }
 
-void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
-                  double given_us)
+/* Returns false if the solve was given up and a request waits for it again by now. */
+static bool try_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
+                       double queue_us)
 {
-    const double queue_us = given_us > 0 ? clock_us() - given_us : 0;
     progress_report t = {{.cancel = flight_cancel(f), .progress = report_progress},
                          .cache = s->cache,
                          .flight = f};
     const bool share = is_costly(s, a);
+    cache_begin(s->cache, f);
     entry *e = share && !*t.observer.cancel ? find_stored(s, key) : NULL;
     if (!e) {
         e = entry_solve(a, key, &t.observer);
@@ -91,10 +92,19 @@ void solve_flight(service *s, const evaluation *a, const cache_key *key, flight 
         e->queue_us = queue_us;
     if (lasting)
         reply_prebuild(s, e);
-    cache_complete(s->cache, f, e);
+    const bool complete = cache_complete(s->cache, f, e);
     if (lasting && share && !e->from_store)
         store_keep(s->store, e);
     entry_unref(e);
+    return complete;
+}
+
+void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
+                  double given_us)
+{
+    const double queue_us = given_us > 0 ? clock_us() - given_us : 0;
+    while (!try_flight(s, a, key, f, queue_us))
+        ;
 }
 
 /* As solve_flight, for a request that gives only the key. */
@@ -163,6 +173,14 @@ void solve_give_up(connection *p, const char *why)
         return;
     static const cache_key none = {{0}};
     w->on_done(w, unavailable(&none, why));
+}
+
+void solve_look_in(connection *p, int64_t now_ms)
+{
+    stream *s = p->request->stream;
+    const int64_t at = s ? atomic_load(&s->pulse_at_ms) : 0;
+    if (at && now_ms >= at)
+        stream_wake(s);
 }
 
 static enum MHD_Result reply_outcome(connection *p)

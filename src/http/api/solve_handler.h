@@ -19,6 +19,8 @@ enum MHD_Result handle_result(struct connection *p);   /* GET /v1/results/{key} 
 /* Answers a connection in CONNECTION_WAITING with 503 now, because of `why`. On the event thread,
  * or on another under the lock of connections. */
 void solve_give_up(struct connection *p, const char *why);
+/* Wakes a stream that has asked to be woken by now. In the same places. */
+void solve_look_in(struct connection *p, int64_t now_ms);
 
 /* Solves, completes the flight and wakes all requests that wait for it. `given_us`: when it was
  * queued (clock_us), or 0. */

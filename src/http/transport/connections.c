@@ -55,6 +55,8 @@ static void inspect(connection *p, int64_t now)
     } else if (late || has_left(p)) {
         p->all->handlers->give_up(p, late ? "it took longer than solve_timeout_s"
                                           : "the client left");
+    } else {
+        p->all->handlers->look_in(p, now);
     }
 }
 

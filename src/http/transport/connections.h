@@ -55,6 +55,9 @@ typedef struct handlers {
     /* Answers a connection in CONNECTION_WAITING with 503 now, because of `why`. On the event
      * thread, or on another under the lock of connections. */
     void (*give_up)(connection *p, const char *why);
+    /* Looks in on a connection in CONNECTION_WAITING, ten times a second, at clock_ms(); where
+     * give_up is called. */
+    void (*look_in)(connection *p, int64_t now_ms);
 } handlers;
 
 /* Returns NULL when memory or threads ran out. `s` and `h` must outlive it. */

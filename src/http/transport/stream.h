@@ -31,6 +31,8 @@ typedef struct stream {
     struct connection *connection;  /* of use to the event thread only */
     strbuf out;
     int64_t wait_until_ms; /* by clock_ms(): the latest that STREAM_WAIT may take */
+    /* By clock_ms(): when a stream that waits is woken whatever happens; 0: never. */
+    _Atomic int64_t pulse_at_ms;
     /* Why waiting was given up (never freed), or NULL: `next` then sends it and ends. */
     _Atomic(const char *) given_up;
     /* stream.c's own */
