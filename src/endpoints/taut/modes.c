@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "endpoints/common/chain.h"
+#include "endpoints/common/members.h"
 
 #define MODES_MAX        1000
 #define SHAPE_POINTS_MAX 2000
@@ -292,14 +293,7 @@ static strum_status write_verification(json_writer *json, const strum_taut *chai
     }
     if (status != STRUM_OK)
         return status;
-    json_key(json, "verification");
-    json_open_object(json);
-    json_put_string(json, "method", v.method);
-    json_put_number(json, "max_relative_difference", v.max_relative_difference);
-    json_put_integer(json, "modes_expected", v.modes_expected);
-    json_put_integer(json, "modes_found", v.modes_found);
-    json_put_number(json, "max_residual", v.max_residual);
-    json_close_object(json);
+    put_verification(json, &v);
     return STRUM_OK;
 }
 
