@@ -32,6 +32,20 @@
 
 STRUM_BEGIN_DECLS
 
+/* strum_error.argument of the functions here: the parameter at fault. */
+typedef enum strum_catenary_argument {
+    STRUM_CATENARY_ARG_RISE = 1, /* also where it alone makes a cable too steep */
+    STRUM_CATENARY_ARG_SAG_PARAMETER,
+    STRUM_CATENARY_ARG_XI,  /* xi_1 and xi_2 */
+    STRUM_CATENARY_ARG_CHI, /* chi_1 and chi_2 */
+    STRUM_CATENARY_ARG_SPAN,
+    STRUM_CATENARY_ARG_LENGTH, /* also unstretched: where no such cable hangs, or it is too taut,
+                                  too deep or too steep */
+    STRUM_CATENARY_ARG_WEIGHT_STRAIN,
+    STRUM_CATENARY_ARG_EPSILON, /* also where the profile that follows is too steep */
+    STRUM_CATENARY_ARG_INCLINATION
+} strum_catenary_argument;
+
 /* ---- geometry ---- */
 
 /* Largest |chi| of an end: |xi| about 1.3e5. Towards it the weights of the integrals span so
@@ -52,27 +66,27 @@ typedef struct strum_catenary {
 
 /* h/b and the sag parameter p = b/sqrt(l^2 - h^2) in (0, 1)  [Gale 2.10, A-1]. */
 strum_status strum_catenary_from_sag(double rise_to_span, double sag_parameter,
-                                     strum_catenary *catenary, strum_error *fault);
+                                     strum_catenary *catenary, strum_error *error);
 /* xi of both ends, xi_1 < xi_2  [Gale 2.33]. */
 strum_status strum_catenary_from_xi(double xi_1, double xi_2, strum_catenary *catenary,
-                                    strum_error *fault);
+                                    strum_error *error);
 /* chi = x/a of both ends, chi_1 < chi_2. */
 strum_status strum_catenary_from_chi(double chi_1, double chi_2, strum_catenary *catenary,
-                                     strum_error *fault);
+                                     strum_error *error);
 /* Span > 0, rise (any sign) and cable length > chord, in one unit of length. */
 strum_status strum_catenary_from_length(double span, double rise, double length,
-                                        strum_catenary *catenary, strum_error *fault);
+                                        strum_catenary *catenary, strum_error *error);
 /* Exact elastic catenary: span > 0, rise, unstretched length in one unit of length, and
  * weight_strain = (weight per unstretched length) (unstretched length) / EA > 0. The chord may
  * exceed the length. */
 strum_status strum_catenary_from_unstretched(double span, double rise,
                                              double unstretched_length, double weight_strain,
-                                             strum_catenary *catenary, strum_error *fault);
+                                             strum_catenary *catenary, strum_error *error);
 
 /* Angle of the chord (radians, within +-pi/2), epsilon = (weight)/(tension where the cable is
  * parallel to its chord) > 0, weight_strain as above, 0 for an inextensible profile. */
 strum_status strum_catenary_from_chord(double epsilon, double inclination, double weight_strain,
-                                       strum_catenary *catenary, strum_error *fault);
+                                       strum_catenary *catenary, strum_error *error);
 
 /* xi = sgn(chi)(cosh chi - 1) and its inverse, without cancellation. */
 double strum_xi_of_chi(double chi);
@@ -97,7 +111,7 @@ typedef struct strum_cable {
 /* Rayleigh's estimate of the first out-of-plane frequency of a level cable  [Gale, Appendix
  * B-5]. */
 strum_status strum_rayleigh_out_of_plane(const strum_catenary *catenary, double *frequency,
-                                         strum_error *fault);
+                                         strum_error *error);
 
 STRUM_END_DECLS
 #endif

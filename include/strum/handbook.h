@@ -4,7 +4,18 @@
  * cable of Irvine and Caughey (The linear theory of free vibrations of a suspended cable, Proc.
  * R. Soc. Lond. A 341, 1974, 299-315; Irvine, Cable Structures, 1981, sections 3.2-3.5). For an
  * inclined cable both use the chord: its length, the tension along it and the weight normal to
- * it. Units as in catenary.h.
+ * it.
+ *
+ * Units are those of catenary.h: a frequency in rad/s is the one here times sqrt(g/a).
+ *
+ *     strum_handbook shallow;
+ *     strum_handbook_of(&catenary, &cable, &shallow);
+ *     printf("lambda^2 = %g\n", shallow.lambda_squared);
+ *     printf("first symmetric mode: %g\n",
+ *            strum_handbook_in_plane(&shallow, STRUM_SYMMETRIC, 1));
+ *
+ * Ownership: everything is the caller's. The formulas hold for every cable that catenary.h makes,
+ * and nothing here can fail. All functions are re-entrant.
  */
 #ifndef STRUM_HANDBOOK_H
 #define STRUM_HANDBOOK_H

@@ -35,7 +35,7 @@ STRUM_BEGIN_DECLS
 
 /* `argument` of an error of this header. */
 typedef enum strum_modes_argument {
-    STRUM_MODES_ARG_CABLE = 1,
+    STRUM_MODES_ARG_CABLE = 1, /* a property of it */
     STRUM_MODES_ARG_COUNT
 } strum_modes_argument;
 
@@ -99,9 +99,10 @@ int strum_modes_size(const strum_modes *modes);
 
 /* How many in-plane natural frequencies of the undamped cable lie below `frequency`: an exact
  * count by integration along the cable, independent of every Galerkin method. STRUM_ERR_METHOD
- * with damping, STRUM_ERR_RANGE for a property out of range or too many modes to count. */
-strum_status strum_modes_below(const strum_cable *cable, double frequency, int *count,
-                               strum_error *error);
+ * with damping, STRUM_ERR_RANGE for a property out of range or too many modes to count, and what
+ * `options` (may be NULL) ends. */
+strum_status strum_modes_below(const strum_cable *cable, double frequency,
+                               const strum_options *options, int *count, strum_error *error);
 
 /* ---- shape ---- */
 

@@ -253,7 +253,7 @@ static strum_status compare(const strum_inclined *m, strum_verification *v, aren
         return status;
     const int n = gap_after(kl, m->count);
     int counted = 0;
-    status = strum_modes_below(&cable, (kl[n - 1] + kl[n]) / 2 / unit, &counted, NULL);
+    status = modes_count_below(&cable, (kl[n - 1] + kl[n]) / 2 / unit, w, &counted, NULL);
     v->modes_expected = counted - (n - m->count);
     return status;
 }

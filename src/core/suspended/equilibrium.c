@@ -112,12 +112,20 @@ static double equilibrium(double log_mu, void *data)
     return left - 0.5 * log1p(right);
 }
 
+/* Lays an error at a parameter; returns its status. */
+static strum_status lay_at(strum_error *error, int argument, strum_status status)
+{
+    if (status != STRUM_OK && error != NULL)
+        error->argument = argument;
+    return status;
+}
+
 /* Least mu: a sag of about 1e-9 of the span. */
 #define MU_LEAST 1e-9
 
-static strum_status refuse_taut(strum_error *fault)
+static strum_status refuse_taut(strum_error *error)
 {
-    return error_set(fault, STRUM_ERR_RANGE,
+    return error_set(error, STRUM_ERR_RANGE,
                      "the cable is too taut: its sag is below 1e-9 of the span");
 }
 
@@ -126,7 +134,7 @@ typedef struct rising {
     void *data;
 } rising;
 
-/* What is not finite is large: GSL takes other values for a fault, and ends its host. */
+/* What is not finite is large: GSL takes other values for a error, and ends its host. */
 static double finite_value(double x, void *data)
 {
     const rising *r = data;
@@ -136,20 +144,20 @@ static double finite_value(double x, void *data)
 
 /* The mu at which `f` of log(mu), rising, passes 0. */
 static strum_status solve_mu(double (*f)(double, void *), void *data, double *mu,
-                             strum_error *fault)
+                             strum_error *error)
 {
     double low = log(MU_LEAST), high = log(2 * STRUM_CHI_MAX);
     /* not a number: lengths beyond 1e150 of the span */
     if (!(f(high, data) > 0))
-        return error_set(fault, STRUM_ERR_RANGE,
+        return error_set(error, STRUM_ERR_RANGE,
                          "the cable is too deep: the slope parameter |chi| would exceed %g",
                          STRUM_CHI_MAX);
     if (!(f(low, data) < 0)) /* so that GSL finds the signs it asks for */
-        return refuse_taut(fault);
+        return refuse_taut(error);
     /* GSL's steps on a state of ours: its own allocation would abort a host without memory. */
     max_align_t state[16];
     if (gsl_root_fsolver_brent->size > sizeof state)
-        return error_set(fault, STRUM_ERR_INTERNAL, "another GSL than this was built for");
+        return error_set(error, STRUM_ERR_INTERNAL, "another GSL than this was built for");
     rising r = {f, data};
     gsl_function function = {finite_value, &r};
     double left = low, right = high, root = low;
@@ -162,20 +170,20 @@ static strum_status solve_mu(double (*f)(double, void *), void *data, double *mu
     *mu = exp(root);
     return status == GSL_SUCCESS
                ? STRUM_OK
-               : error_set(fault, STRUM_ERR_INTERNAL, "the equilibrium was not found");
+               : error_set(error, STRUM_ERR_INTERNAL, "the equilibrium was not found");
 }
 
 /* Fills the rest from chi_m, mu and the weight strain. */
 static strum_status complete(double chi_m, double mu, double weight_strain, strum_catenary *c,
-                             strum_error *fault)
+                             strum_error *error)
 {
     if (!(fabs(chi_m) + mu <= STRUM_CHI_MAX))
-        return error_set(fault, STRUM_ERR_RANGE,
+        return error_set(error, STRUM_ERR_RANGE,
                          "the cable is too steep: the slope parameter |chi| of an end is %.3g, "
                          "above %g",
                          fabs(chi_m) + mu, STRUM_CHI_MAX);
     if (!(mu >= MU_LEAST))
-        return refuse_taut(fault);
+        return refuse_taut(error);
     const double half = weight_strain / 2;
     const double unstretched = 2 * cosh(chi_m) * sinh(mu);
     const double kappa = weight_strain / unstretched;
@@ -197,32 +205,43 @@ static double middle(const taut_equation *t, double mu)
     return asinh(tanh_m * t->length * (mu + half) / sinh(mu));
 }
 
-static strum_status from_equation(const taut_equation *t, strum_catenary *c, strum_error *fault)
+static strum_status from_equation(const taut_equation *t, strum_catenary *c, strum_error *error)
 {
     double mu = 0;
-    const strum_status status = solve_mu(equilibrium, (void *)t, &mu, fault);
-    return status == STRUM_OK ? complete(middle(t, mu), mu, t->weight_strain, c, fault)
+    const strum_status status = solve_mu(equilibrium, (void *)t, &mu, error);
+    return status == STRUM_OK ? complete(middle(t, mu), mu, t->weight_strain, c, error)
                               : status;
 }
 
 strum_status strum_catenary_from_sag(double rise_to_span, double sag_parameter,
-                                     strum_catenary *catenary, strum_error *fault)
+                                     strum_catenary *catenary, strum_error *error)
 {
     const double p = sag_parameter;
     if (!(isfinite(rise_to_span) && p > 0 && p < 1))
-        return error_set(fault, STRUM_ERR_RANGE, "the sag parameter must lie between 0 and 1");
+        return error_at(error, STRUM_ERR_RANGE, STRUM_CATENARY_ARG_SAG_PARAMETER,
+                        STRUM_NO_INDEX, "the sag parameter must lie between 0 and 1");
     const quad exact = decimal(p);
     taut_equation t = {.excess = (double)((exact - 1) * (1 + exact) / (exact * exact)),
                        .rise = rise_to_span,
                        .length = hypot(1 / p, rise_to_span)};
-    return from_equation(&t, catenary, fault);
+    double mu = 0;
+    strum_status status = solve_mu(equilibrium, &t, &mu, error);
+    if (status != STRUM_OK)
+        return lay_at(error, STRUM_CATENARY_ARG_SAG_PARAMETER, status);
+    status = complete(middle(&t, mu), mu, 0, catenary, error);
+    /* mu is that of the level cable: only the rise can make it too steep */
+    return lay_at(error,
+                  mu >= MU_LEAST && mu <= STRUM_CHI_MAX ? STRUM_CATENARY_ARG_RISE
+                                                        : STRUM_CATENARY_ARG_SAG_PARAMETER,
+                  status);
 }
 
 strum_status strum_catenary_from_xi(double xi_1, double xi_2, strum_catenary *catenary,
-                                    strum_error *fault)
+                                    strum_error *error)
 {
     if (!(isfinite(xi_1) && isfinite(xi_2) && xi_1 < xi_2))
-        return error_set(fault, STRUM_ERR_RANGE, "xi_1 must be less than xi_2");
+        return error_at(error, STRUM_ERR_RANGE, STRUM_CATENARY_ARG_XI, STRUM_NO_INDEX,
+                        "xi_1 must be less than xi_2");
     const double chi_1 = strum_chi_of_xi(xi_1), chi_2 = strum_chi_of_xi(xi_2);
     double mu = (chi_2 - chi_1) / 2;
     if (xi_1 * xi_2 > 0) {
@@ -231,17 +250,20 @@ strum_status strum_catenary_from_xi(double xi_1, double xi_2, strum_catenary *ca
         mu = asinh((double)(decimal(xi_2) - decimal(xi_1)) / 2 /
                    (s2 * hypot(1, s1) + s1 * hypot(1, s2)));
     }
-    return complete((chi_1 + chi_2) / 2, mu, 0, catenary, fault);
+    return lay_at(error, STRUM_CATENARY_ARG_XI,
+                  complete((chi_1 + chi_2) / 2, mu, 0, catenary, error));
 }
 
 strum_status strum_catenary_from_chi(double chi_1, double chi_2, strum_catenary *catenary,
-                                     strum_error *fault)
+                                     strum_error *error)
 {
     if (!(isfinite(chi_1) && isfinite(chi_2) && chi_1 < chi_2))
-        return error_set(fault, STRUM_ERR_RANGE, "chi_1 must be less than chi_2");
+        return error_at(error, STRUM_ERR_RANGE, STRUM_CATENARY_ARG_CHI, STRUM_NO_INDEX,
+                        "chi_1 must be less than chi_2");
     const quad first = decimal(chi_1), second = decimal(chi_2);
-    return complete((double)(first + second) / 2, (double)(second - first) / 2, 0, catenary,
-                    fault);
+    const strum_status status = complete((double)(first + second) / 2,
+                                         (double)(second - first) / 2, 0, catenary, error);
+    return lay_at(error, STRUM_CATENARY_ARG_CHI, status);
 }
 
 /* 1 + rise^2 - length^2 in units of the span; the products of doubles are exact in quadruple
@@ -253,34 +275,36 @@ static double excess_of(double span, double rise, double length)
 }
 
 strum_status strum_catenary_from_length(double span, double rise, double length,
-                                        strum_catenary *catenary, strum_error *fault)
+                                        strum_catenary *catenary, strum_error *error)
 {
     if (!(isfinite(span) && isfinite(rise) && isfinite(length) && span > 0))
-        return error_set(fault, STRUM_ERR_RANGE, "the span must be positive");
+        return error_at(error, STRUM_ERR_RANGE, STRUM_CATENARY_ARG_SPAN, STRUM_NO_INDEX,
+                        "the span must be positive");
     taut_equation t = {
         .excess = excess_of(span, rise, length), .rise = rise / span, .length = length / span};
     if (!(length > 0 && t.excess < 0))
-        return error_set(fault, STRUM_ERR_IMPOSSIBLE,
-                         "the cable, %.15g long, does not reach between supports %.15g apart",
-                         length, hypot(span, rise));
-    return from_equation(&t, catenary, fault);
+        return error_at(error, STRUM_ERR_IMPOSSIBLE, STRUM_CATENARY_ARG_LENGTH, STRUM_NO_INDEX,
+                        "the cable, %.15g long, does not reach between supports %.15g apart",
+                        length, hypot(span, rise));
+    return lay_at(error, STRUM_CATENARY_ARG_LENGTH, from_equation(&t, catenary, error));
 }
 
 strum_status strum_catenary_from_unstretched(double span, double rise,
                                              double unstretched_length, double weight_strain,
-                                             strum_catenary *catenary, strum_error *fault)
+                                             strum_catenary *catenary, strum_error *error)
 {
     if (!(isfinite(span) && isfinite(rise) && isfinite(unstretched_length) && span > 0 &&
           unstretched_length > 0))
-        return error_set(fault, STRUM_ERR_RANGE,
-                         "span and unstretched length must be positive");
+        return error_at(error, STRUM_ERR_RANGE, STRUM_CATENARY_ARG_SPAN, STRUM_NO_INDEX,
+                        "span and unstretched length must be positive");
     if (!(isfinite(weight_strain) && weight_strain > 0))
-        return error_set(fault, STRUM_ERR_RANGE, "the weight strain must be positive");
+        return error_at(error, STRUM_ERR_RANGE, STRUM_CATENARY_ARG_WEIGHT_STRAIN,
+                        STRUM_NO_INDEX, "the weight strain must be positive");
     taut_equation t = {.excess = excess_of(span, rise, unstretched_length),
                        .rise = rise / span,
                        .length = unstretched_length / span,
                        .weight_strain = weight_strain};
-    return from_equation(&t, catenary, fault);
+    return lay_at(error, STRUM_CATENARY_ARG_LENGTH, from_equation(&t, catenary, error));
 }
 
 /* A cable by its chord: epsilon = w0 L0/T_a, the angle of the chord, e = weight strain. */
@@ -305,20 +329,25 @@ static double chord_equilibrium(double log_mu, void *data)
 }
 
 strum_status strum_catenary_from_chord(double epsilon, double inclination, double weight_strain,
-                                       strum_catenary *catenary, strum_error *fault)
+                                       strum_catenary *catenary, strum_error *error)
 {
-    if (!(isfinite(epsilon) && epsilon > 0 && fabs(inclination) < M_PI_2))
-        return error_set(fault, STRUM_ERR_RANGE,
-                         "epsilon must be positive, the inclination below 90 degrees");
+    const bool epsilon_good = isfinite(epsilon) && epsilon > 0;
+    if (!(epsilon_good && fabs(inclination) < M_PI_2))
+        return error_at(
+            error, STRUM_ERR_RANGE,
+            epsilon_good ? STRUM_CATENARY_ARG_INCLINATION : STRUM_CATENARY_ARG_EPSILON,
+            STRUM_NO_INDEX, "epsilon must be positive, the inclination below 90 degrees");
     if (!(isfinite(weight_strain) && weight_strain >= 0))
-        return error_set(fault, STRUM_ERR_RANGE, "the weight strain must not be negative");
+        return error_at(error, STRUM_ERR_RANGE, STRUM_CATENARY_ARG_WEIGHT_STRAIN,
+                        STRUM_NO_INDEX, "the weight strain must not be negative");
     chord_equation q = {epsilon, cos(inclination), sin(inclination), weight_strain};
     double mu = 0;
-    const strum_status status = solve_mu(chord_equilibrium, &q, &mu, fault);
-    if (status != STRUM_OK)
-        return status;
-    const double slope = tan(inclination) * chord_ratio(mu, weight_strain);
-    return complete(asinh(slope), mu, weight_strain, catenary, fault);
+    strum_status status = solve_mu(chord_equilibrium, &q, &mu, error);
+    if (status == STRUM_OK) {
+        const double slope = tan(inclination) * chord_ratio(mu, weight_strain);
+        status = complete(asinh(slope), mu, weight_strain, catenary, error);
+    }
+    return lay_at(error, STRUM_CATENARY_ARG_EPSILON, status);
 }
 
 double strum_xi_of_chi(double chi)
@@ -377,11 +406,11 @@ double strum_catenary_sag(const strum_catenary *c)
  * holds for any rise.
  */
 strum_status strum_rayleigh_out_of_plane(const strum_catenary *c, double *frequency,
-                                         strum_error *fault)
+                                         strum_error *error)
 {
     double node[128], weight[128];
     gauss_legendre(128, node, weight);
-    (void)fault; /* the formula holds for every equilibrium */
+    (void)error; /* the formula holds for every equilibrium */
     const double parallel = asinh(c->rise / c->span), sag = strum_catenary_sag(c);
     double first = 0, second = 0;
     for (size_t i = 0; i < 128; i++) {

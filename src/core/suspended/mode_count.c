@@ -21,12 +21,14 @@
 #include "core/numerics/gauss.h"
 #include "core/numerics/legendre.h"
 #include "core/suspended/in_plane.h"
+#include "core/suspended/modes.h"
 
 #define NODES      8    /* Gauss collocation: order 16 */
 #define STEP_PHASE 0.8  /* most that the two phases may grow in a step */
 #define STEP_CHI   0.25 /* and how far the cable may bend in it */
 /* A count of more steps than this would take seconds: some 10^5 modes. */
 #define STEPS_MAX 500000
+#define STEP_US   4 /* a step takes about so long */
 
 typedef struct counting {
     const strum_cable *cable;
@@ -153,25 +155,36 @@ static void normalise(state y)
     }
 }
 
-strum_status strum_modes_below(const strum_cable *cable, double frequency, int *count,
-                               strum_error *fault)
+strum_status strum_modes_below(const strum_cable *cable, double frequency,
+                               const strum_options *options, int *count, strum_error *error)
+{
+    work w = work_begin(options);
+    return modes_count_below(cable, frequency, &w, count, error);
+}
+
+strum_status modes_count_below(const strum_cable *cable, double frequency, work *w, int *count,
+                               strum_error *error)
 {
     if (cable->eta_t > 0 || cable->eta_n > 0)
-        return error_set(fault, STRUM_ERR_METHOD, "modes are counted without damping only");
+        return error_at(error, STRUM_ERR_METHOD, STRUM_MODES_ARG_CABLE, STRUM_NO_INDEX,
+                        "modes are counted without damping only");
     if (!(frequency > 0 && cable->mu > 0 && fabs(cable->chi_m) + cable->mu < 1e3 &&
           cable->mass_t > 0 && cable->mass_n > 0 && cable->kappa_t >= 0 && cable->kappa_n >= 0))
-        return error_set(fault, STRUM_ERR_RANGE, "a property of the cable is out of range");
+        return error_at(error, STRUM_ERR_RANGE, STRUM_MODES_ARG_CABLE, STRUM_NO_INDEX,
+                        "a property of the cable is out of range");
     counting k = {.cable = cable, .along = mapping_linear(cable), .frequency = frequency};
     make_rule(&k);
     const double phases = 2 * frequency * choose_units(&k);
     const double needed = fmax(phases / STEP_PHASE, 2 * cable->mu / STEP_CHI);
     if (!(needed < STEPS_MAX))
-        return error_set(fault, STRUM_ERR_RANGE, "there are too many modes to count");
+        return error_set(error, STRUM_ERR_RANGE, "there are too many modes to count");
     const int steps = (int)needed + 1;
     state y = {{1, 0, 0, 0}, {0, 1, 0, 0}};
     double sum = 0;
     double _Complex before = 1;
     for (int i = 0; i < steps; i++) {
+        if (work_spend(w, STEP_US) != STRUM_OK)
+            return work_error(w, error);
         step(&k, 2.0 * i / steps - 1, 2.0 / steps, y);
         normalise(y);
         const double _Complex now = CMPLX(y[0][0], y[0][2]) * CMPLX(y[1][1], y[1][3]) -

@@ -193,14 +193,15 @@ strum_status spectrum_check_cable(const strum_cable *c, strum_error *fault)
                              c->mass_t, c->mass_n, c->eta_t,   c->eta_n};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         if (!isfinite(values[i]))
-            return error_set(fault, STRUM_ERR_RANGE, "a property of the cable is not finite");
+            return error_at(fault, STRUM_ERR_RANGE, STRUM_MODES_ARG_CABLE, STRUM_NO_INDEX,
+                            "a property of the cable is not finite");
     if (!(c->mu > 0 && fabs(c->chi_m) + c->mu <= STRUM_CHI_MAX * (1 + 1e-12)))
-        return error_set(fault, STRUM_ERR_RANGE, "the slope parameters must lie within +-%g",
-                         STRUM_CHI_MAX);
+        return error_at(fault, STRUM_ERR_RANGE, STRUM_MODES_ARG_CABLE, STRUM_NO_INDEX,
+                        "the slope parameters must lie within +-%g", STRUM_CHI_MAX);
     if (!(c->kappa_t >= 0 && c->kappa_n >= 0 && c->eta_t >= 0 && c->eta_n >= 0 &&
           c->mass_t > 0 && c->mass_n > 0))
-        return error_set(fault, STRUM_ERR_RANGE,
-                         "masses must be positive, flexibility and damping not negative");
+        return error_at(fault, STRUM_ERR_RANGE, STRUM_MODES_ARG_CABLE, STRUM_NO_INDEX,
+                        "masses must be positive, flexibility and damping not negative");
     return STRUM_OK;
 }
 

@@ -47,6 +47,10 @@ strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_pl
 strum_status spectrum_unscaled(const strum_cable *cable, int count, work *w,
                                strum_modes **modes, strum_error *error);
 
+/* strum_modes_below within a solve. */
+strum_status modes_count_below(const strum_cable *cable, double frequency, work *w, int *count,
+                               strum_error *error);
+
 /* Splits `list` into roots that oscillate (ascending frequency, at most `count`) and decay
  * rates (ascending); arrays are the arena's. Roots beyond what damping can reach are rounding
  * and left out. */

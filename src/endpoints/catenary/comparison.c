@@ -19,7 +19,8 @@ typedef struct opinion {
 
 double verification_series_work(const cable_input *in, strum_plane plane, int count)
 {
-    return count > VERIFY_SERIES_MODES ? 0 : strum_series_work(&in->cable, plane, count, false);
+    const strum_series_params params = {in->cable, plane, count, false};
+    return count > VERIFY_SERIES_MODES ? 0 : strum_series_work(&params);
 }
 
 static double difference(const strum_mode *modes, const strum_mode *others, int count)
@@ -41,8 +42,9 @@ static strum_status confirm_galerkin(const cable_input *in, strum_plane plane,
     strum_mode modes[VERIFY_SERIES_MODES];
     strum_series_report report;
     const strum_status series =
-        strum_series_solve(&in->cable, plane, found->count, false, modes, &report, NULL);
-    if (series == STRUM_ERR_MEMORY)
+        strum_series_solve(&(strum_series_params){in->cable, plane, found->count, false},
+                           options, modes, &report, fault);
+    if (series != STRUM_OK && series != STRUM_ERR_ACCURACY)
         return series;
     o->has_series = series == STRUM_OK;
     if (o->has_series) {

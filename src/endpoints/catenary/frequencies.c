@@ -92,10 +92,11 @@ static double plane_cost_us(const request *r, strum_plane plane)
 {
     const strum_cable *cable = &r->in.cable;
     const int modes = (int)r->modes;
-    const double series = r->method == METHOD_SERIES
-                              ? 1.5 * strum_series_work(cable, plane, modes, true)
-                          : r->verify ? 0.25 * verification_series_work(&r->in, plane, modes)
-                                      : 0;
+    const double series =
+        r->method == METHOD_SERIES
+            ? 1.5 * strum_series_work(&(strum_series_params){*cable, plane, modes, true})
+        : r->verify ? 0.25 * verification_series_work(&r->in, plane, modes)
+                    : 0;
     const double galerkin = r->method == METHOD_GALERKIN || r->verify
                                 ? strum_modes_work(&(strum_modes_params){
                                       *cable, plane, modes, r->shape_points > 0 || r->verify})
@@ -292,8 +293,8 @@ static strum_status solve_plane(const request *r, strum_plane plane,
     const int count = (int)r->modes;
     strum_status status;
     if (r->method == METHOD_SERIES) {
-        status = strum_series_solve(&r->in.cable, plane, count, true, found->modes,
-                                    &found->series, fault);
+        status = strum_series_solve(&(strum_series_params){r->in.cable, plane, count, true},
+                                    options, found->modes, &found->series, fault);
     } else {
         status = strum_modes_solve(
             &(strum_modes_params){r->in.cable, plane, count, r->shape_points > 0 || r->verify},

@@ -23,37 +23,38 @@ void cable_refuse(const strum_error *fault, strum_status status, problem *p)
     problem_set(p, http, "%s", reason);
 }
 
-/* The catenary of whichever group was given; its fault is laid at the field that decides. */
+/* The catenary of whichever group was given. */
 static strum_status find_catenary(const schema *s, const cable_input *in, strum_catenary *c,
-                                  const char **pointer, strum_error *fault)
+                                  strum_error *error)
 {
-    if (FIELD_GIVEN(s, in, sag_parameter)) {
-        const strum_status status =
-            strum_catenary_from_sag(in->rise_to_span, in->sag_parameter, c, fault);
-        /* the rise decides where the same cable would be good between level supports */
-        strum_catenary level;
-        *pointer = status != STRUM_OK && strum_catenary_from_sag(0, in->sag_parameter, &level,
-                                                                 NULL) == STRUM_OK
-                       ? "/rise_to_span"
-                       : "/sag_parameter";
-        return status;
-    }
-    if (FIELD_GIVEN(s, in, xi_2)) {
-        *pointer = "/xi_2";
-        return strum_catenary_from_xi(in->xi_1, in->xi_2, c, fault);
-    }
-    if (FIELD_GIVEN(s, in, chi_2)) {
-        *pointer = "/chi_2";
-        return strum_catenary_from_chi(in->chi_1, in->chi_2, c, fault);
-    }
-    if (FIELD_GIVEN(s, in, length_m)) {
-        *pointer = "/length_m";
-        return strum_catenary_from_length(in->span_m, in->rise_m, in->length_m, c, fault);
-    }
-    *pointer = "/unstretched_length_m";
+    if (FIELD_GIVEN(s, in, sag_parameter))
+        return strum_catenary_from_sag(in->rise_to_span, in->sag_parameter, c, error);
+    if (FIELD_GIVEN(s, in, xi_2))
+        return strum_catenary_from_xi(in->xi_1, in->xi_2, c, error);
+    if (FIELD_GIVEN(s, in, chi_2))
+        return strum_catenary_from_chi(in->chi_1, in->chi_2, c, error);
+    if (FIELD_GIVEN(s, in, length_m))
+        return strum_catenary_from_length(in->span_m, in->rise_m, in->length_m, c, error);
     return strum_catenary_from_unstretched(
         in->span_m, in->rise_m, in->unstretched_length_m,
-        in->weight_N_per_m * in->unstretched_length_m / in->axial_stiffness_N, c, fault);
+        in->weight_N_per_m * in->unstretched_length_m / in->axial_stiffness_N, c, error);
+}
+
+/* The field to lay an error of the catenary at: the one of its group that decides. */
+static const char *field_at_fault(const schema *s, const cable_input *in, int argument)
+{
+    switch (argument) {
+    case STRUM_CATENARY_ARG_RISE:
+        return "/rise_to_span";
+    case STRUM_CATENARY_ARG_SAG_PARAMETER:
+        return "/sag_parameter";
+    case STRUM_CATENARY_ARG_XI:
+        return "/xi_2";
+    case STRUM_CATENARY_ARG_CHI:
+        return "/chi_2";
+    default:
+        return FIELD_GIVEN(s, in, length_m) ? "/length_m" : "/unstretched_length_m";
+    }
 }
 
 /* Weight follows from mass unless given; what hangs on a mass needs one. */
@@ -85,12 +86,11 @@ void cable_prepare(const schema *s, cable_input *in, problem *p)
         problem_add(p, "/chi_2", "must be greater than chi_1");
     if (p->status != 0)
         return;
-    const char *pointer;
-    strum_error fault = {0};
-    const strum_status status = find_catenary(s, in, &in->catenary, &pointer, &fault);
+    strum_error error = {0};
+    const strum_status status = find_catenary(s, in, &in->catenary, &error);
     if (status != STRUM_OK) {
-        cable_refuse(&fault, status, p);
-        problem_add(p, pointer, "%s", fault.reason);
+        cable_refuse(&error, status, p);
+        problem_add(p, field_at_fault(s, in, error.argument), "%s", error.reason);
         return;
     }
     const strum_catenary *c = &in->catenary;

@@ -216,6 +216,40 @@ static void impossible_and_unreachable_inputs_are_refused(void **state)
     assert_int_equal(strum_catenary_from_unstretched(1, 0, -1, 1, &c, &fault), STRUM_ERR_RANGE);
 }
 
+/* The argument of each error is the parameter that a caller would change. */
+static void errors_name_their_argument(void **state)
+{
+    (void)state;
+    strum_catenary c;
+    strum_error e;
+#define NAMES(call, which)                                                                     \
+    do {                                                                                       \
+        e = (strum_error){0};                                                                  \
+        assert_int_not_equal(call, STRUM_OK);                                                  \
+        assert_int_equal(e.argument, which);                                                   \
+        assert_true(e.reason[0] != 0);                                                         \
+    } while (0)
+    NAMES(strum_catenary_from_sag(0, 1.5, &c, &e), STRUM_CATENARY_ARG_SAG_PARAMETER);
+    NAMES(strum_catenary_from_sag(3, 1e-12, &c, &e), STRUM_CATENARY_ARG_SAG_PARAMETER);
+    NAMES(strum_catenary_from_sag(0, 1e-9, &c, &e), STRUM_CATENARY_ARG_SAG_PARAMETER);
+    NAMES(strum_catenary_from_sag(1e9, 0.5, &c, &e), STRUM_CATENARY_ARG_RISE);
+    NAMES(strum_catenary_from_xi(1, 1, &c, &e), STRUM_CATENARY_ARG_XI);
+    NAMES(strum_catenary_from_xi(1, 1e9, &c, &e), STRUM_CATENARY_ARG_XI);
+    NAMES(strum_catenary_from_chi(2, 1, &c, &e), STRUM_CATENARY_ARG_CHI);
+    NAMES(strum_catenary_from_chi(0, 13, &c, &e), STRUM_CATENARY_ARG_CHI);
+    NAMES(strum_catenary_from_length(0, 4, 5, &c, &e), STRUM_CATENARY_ARG_SPAN);
+    NAMES(strum_catenary_from_length(3, 4, 5, &c, &e), STRUM_CATENARY_ARG_LENGTH);
+    NAMES(strum_catenary_from_length(1e-9, 0, 5, &c, &e), STRUM_CATENARY_ARG_LENGTH);
+    NAMES(strum_catenary_from_unstretched(0, 0, 1, 1, &c, &e), STRUM_CATENARY_ARG_SPAN);
+    NAMES(strum_catenary_from_unstretched(1, 0, 1, 0, &c, &e),
+          STRUM_CATENARY_ARG_WEIGHT_STRAIN);
+    NAMES(strum_catenary_from_unstretched(1, 0, 1e9, 1e-9, &c, &e), STRUM_CATENARY_ARG_LENGTH);
+    NAMES(strum_catenary_from_chord(-1, 0, 0, &c, &e), STRUM_CATENARY_ARG_EPSILON);
+    NAMES(strum_catenary_from_chord(1, 2, 0, &c, &e), STRUM_CATENARY_ARG_INCLINATION);
+    NAMES(strum_catenary_from_chord(1, 0, -1, &c, &e), STRUM_CATENARY_ARG_WEIGHT_STRAIN);
+#undef NAMES
+}
+
 int main(void)
 {
     srand(1976);
@@ -227,6 +261,7 @@ int main(void)
         cmocka_unit_test(sag_is_the_largest_distance),
         cmocka_unit_test(xi_and_chi_are_inverse),
         cmocka_unit_test(rayleigh_estimate),
+        cmocka_unit_test(errors_name_their_argument),
         cmocka_unit_test(impossible_and_unreachable_inputs_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,7 +19,7 @@ static int count_below(const strum_cable *cable, double frequency)
 {
     int count = -1;
     strum_error fault = {0};
-    if (strum_modes_below(cable, frequency, &count, &fault) != STRUM_OK)
+    if (strum_modes_below(cable, frequency, NULL, &count, &fault) != STRUM_OK)
         fail_msg("%s", fault.reason);
     return count;
 }
@@ -113,13 +113,41 @@ static void refusals(void **state)
     (void)state;
     int count;
     strum_cable cable = {.mu = 0.5, .mass_t = 1, .mass_n = 1, .eta_n = 0.1};
-    assert_int_equal(strum_modes_below(&cable, 1, &count, NULL), STRUM_ERR_METHOD);
+    assert_int_equal(strum_modes_below(&cable, 1, NULL, &count, NULL), STRUM_ERR_METHOD);
     cable.eta_n = 0;
-    assert_int_equal(strum_modes_below(&cable, NAN, &count, NULL), STRUM_ERR_RANGE);
-    assert_int_equal(strum_modes_below(&cable, 0, &count, NULL), STRUM_ERR_RANGE);
-    assert_int_equal(strum_modes_below(&cable, 1e12, &count, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_modes_below(&cable, NAN, NULL, &count, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_modes_below(&cable, 0, NULL, &count, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_modes_below(&cable, 1e12, NULL, &count, NULL), STRUM_ERR_RANGE);
     cable.mass_t = 0;
-    assert_int_equal(strum_modes_below(&cable, 1, &count, NULL), STRUM_ERR_RANGE);
+    assert_int_equal(strum_modes_below(&cable, 1, NULL, &count, NULL), STRUM_ERR_RANGE);
+}
+
+static bool at_once(void *asked)
+{
+    return ++*(int *)asked > 10;
+}
+
+/* A count of 10^5 steps ends when it is asked to. */
+static void a_count_can_be_stopped(void **state)
+{
+    (void)state;
+    const strum_cable cable = {.mu = 0.5, .mass_t = 1, .mass_n = 1}, bad = {.mu = -1};
+    int count, asked = 0;
+    strum_error error = {0};
+    const strum_options stop = {.cancelled = at_once, .context = &asked},
+                        little = {.work_max = 100};
+    assert_int_equal(strum_modes_below(&cable, 4e4, &stop, &count, &error),
+                     STRUM_ERR_CANCELLED);
+    assert_int_equal(asked, 11);
+    assert_int_equal(strum_modes_below(&cable, 4e4, &little, &count, &error), STRUM_ERR_WORK);
+    assert_int_equal(strum_modes_below(&bad, 1, NULL, &count, &error), STRUM_ERR_RANGE);
+    assert_int_equal(error.argument, STRUM_MODES_ARG_CABLE);
+    strum_modes *modes;
+    error = (strum_error){0};
+    assert_int_equal(strum_modes_solve(&(strum_modes_params){bad, STRUM_IN_PLANE, 3, false},
+                                       NULL, &modes, &error),
+                     STRUM_ERR_RANGE);
+    assert_int_equal(error.argument, STRUM_MODES_ARG_CABLE);
 }
 
 int main(void)
@@ -130,6 +158,7 @@ int main(void)
         cmocka_unit_test(random_spectra),
         cmocka_unit_test(strain_form_agrees),
         cmocka_unit_test(refusals),
+        cmocka_unit_test(a_count_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,7 +36,8 @@ static strum_series_report solved(const strum_cable *cable, strum_plane plane, i
 {
     strum_series_report report;
     strum_error fault = {0};
-    if (strum_series_solve(cable, plane, count, true, modes, &report, &fault) != STRUM_OK)
+    const strum_series_params params = {*cable, plane, count, true};
+    if (strum_series_solve(&params, NULL, modes, &report, &fault) != STRUM_OK)
         fail_msg("chi_m %.17g mu %.17g plane %d, %d modes: %s", cable->chi_m, cable->mu, plane,
                  count, fault.reason);
     assert_true(report.error <= 1e-12 && report.terms > 10 && report.evaluations > 0);
@@ -438,13 +439,13 @@ static void refused(const strum_cable *cable, strum_plane plane, int count, bool
     strum_mode modes[STRUM_MODES_MAX];
     strum_series_report report;
     strum_error fault = {0};
-    assert_int_equal(strum_series_solve(cable, plane, count, thorough, modes, &report, &fault),
-                     status);
+    const strum_series_params params = {*cable, plane, count, thorough};
+    assert_int_equal(strum_series_solve(&params, NULL, modes, &report, &fault), status);
     if (strstr(fault.reason, word) == NULL)
         fail_msg("\"%s\" is not in: %s", word, fault.reason);
     if (status == STRUM_ERR_METHOD) {
         assert_int_equal(strum_series_applies(cable, plane, &fault), status);
-        assert_true(strum_series_work(cable, plane, 6, true) == 0);
+        assert_true(strum_series_work(&params) == 0);
     }
 }
 
@@ -474,8 +475,44 @@ static void refusals(void **state)
     refused(&cable, STRUM_OUT_OF_PLANE, 3, true, STRUM_ERR_METHOD, "|xi| = 7");
     cable = of_xi(-1, 3.999);
     refused(&cable, STRUM_IN_PLANE, 3, true, STRUM_ERR_ACCURACY, "terms");
-    assert_true(strum_series_work(&cable, STRUM_IN_PLANE, 6, true) >
-                strum_series_work(&cable, STRUM_OUT_OF_PLANE, 6, true));
+    assert_true(strum_series_work(&(strum_series_params){cable, STRUM_IN_PLANE, 6, true}) >
+                strum_series_work(&(strum_series_params){cable, STRUM_OUT_OF_PLANE, 6, true}));
+}
+
+static bool after_some(void *left)
+{
+    return (*(int *)left)-- <= 0;
+}
+
+/* Stopped at many places in turn; and what is at fault is named. */
+static void a_solve_can_be_stopped(void **state)
+{
+    (void)state;
+    strum_series_params params = STRUM_SERIES_PARAMS_INIT;
+    params.cable = of_xi(-1, 3);
+    strum_mode modes[6];
+    strum_series_report report;
+    strum_error error = {0};
+    int stopped = 0;
+    strum_status status = STRUM_ERR_CANCELLED;
+    for (int polls = 0; status != STRUM_OK; polls += 1 + polls / 4, stopped++) {
+        int left = polls;
+        const strum_options options = {.cancelled = after_some, .context = &left};
+        status = strum_series_solve(&params, &options, modes, &report, &error);
+        assert_true(status == STRUM_OK || status == STRUM_ERR_CANCELLED);
+    }
+    assert_true(stopped > 10);
+    const strum_options little = {.bytes_max = 1000};
+    assert_int_equal(strum_series_solve(&params, &little, modes, &report, &error),
+                     STRUM_ERR_BYTES);
+    params.count = 0;
+    assert_int_equal(strum_series_solve(&params, NULL, modes, &report, &error),
+                     STRUM_ERR_RANGE);
+    assert_int_equal(error.argument, STRUM_SERIES_ARG_COUNT);
+    params.cable.eta_n = 1;
+    assert_int_equal(strum_series_solve(&params, NULL, modes, &report, &error),
+                     STRUM_ERR_METHOD);
+    assert_int_equal(error.argument, STRUM_SERIES_ARG_CABLE);
 }
 
 int main(void)
@@ -488,6 +525,7 @@ int main(void)
         cmocka_unit_test(random_cables),
         cmocka_unit_test(many_modes),
         cmocka_unit_test(refusals),
+        cmocka_unit_test(a_solve_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,23 +7,25 @@
 
 #include "core/suspended/modes.h"
 #include "core/numerics/status.h"
+#include "core/numerics/work.h"
 
-strum_status strum_series_applies(const strum_cable *c, strum_plane plane, strum_error *fault)
+strum_status strum_series_applies(const strum_cable *c, strum_plane plane, strum_error *error)
 {
     if (c->eta_t > 0 || c->eta_n > 0)
-        return error_set(fault, STRUM_ERR_METHOD, "the series method has no damping");
+        return error_at(error, STRUM_ERR_METHOD, STRUM_SERIES_ARG_CABLE, STRUM_NO_INDEX,
+                        "the series method has no damping");
     if (c->kappa_n > 0 || (c->kappa_t > 0 && plane == STRUM_IN_PLANE))
-        return error_set(fault, STRUM_ERR_METHOD,
-                         "the series method takes the cable as inextensible");
+        return error_at(error, STRUM_ERR_METHOD, STRUM_SERIES_ARG_CABLE, STRUM_NO_INDEX,
+                        "the series method takes the cable as inextensible");
     if (c->mass_t != c->mass_n && plane == STRUM_IN_PLANE)
-        return error_set(fault, STRUM_ERR_METHOD,
-                         "the series method has no added mass in plane");
+        return error_at(error, STRUM_ERR_METHOD, STRUM_SERIES_ARG_CABLE, STRUM_NO_INDEX,
+                        "the series method has no added mass in plane");
     const double chi = fabs(c->chi_m) + c->mu, limit = strum_chi_of_xi(4);
     if (!(c->mu > 0 && chi < limit))
-        return error_set(fault, STRUM_ERR_METHOD,
-                         "the series about xi = 2 diverges from |xi| = 4 on; an end is at "
-                         "|xi| = %.6g",
-                         strum_xi_of_chi(chi));
+        return error_at(error, STRUM_ERR_METHOD, STRUM_SERIES_ARG_CABLE, STRUM_NO_INDEX,
+                        "the series about xi = 2 diverges from |xi| = 4 on; an end is at "
+                        "|xi| = %.6g",
+                        strum_xi_of_chi(chi));
     return STRUM_OK;
 }
 
@@ -95,8 +97,18 @@ typedef struct search {
     bracket *brackets;
     int found, room;
     arena memory;
-    strum_error *fault;
+    work *work;
+    strum_error *error;
 } search;
+
+/* An evaluation of the series takes about so long a term, in microseconds. */
+#define TERM_US 0.1
+
+/* Before each evaluation. */
+static strum_status ask(const search *s)
+{
+    return work_spend(s->work, TERM_US * s->problem.terms);
+}
 
 /* What rounding may have eaten of an element's stiffness for its sign to be trusted. */
 #define ASYMMETRY_MAX 1e-6L
@@ -106,7 +118,7 @@ typedef struct search {
 static strum_status refuse_digits(const search *s, long double w)
 {
     return error_set(
-        s->fault, STRUM_ERR_ACCURACY,
+        s->error, STRUM_ERR_ACCURACY,
         "near frequency ratio %.4g the terms of the power series cancel so far that %d bit "
         "arithmetic cannot give %.0e; ask for fewer modes or use method galerkin",
         (double)w, series_arithmetics[s->finest].bits, TOLERANCE);
@@ -116,12 +128,15 @@ static strum_status refuse_digits(const search *s, long double w)
 static strum_status count_below(search *s, long double w, int *count)
 {
     long double asymmetry;
+    const strum_status status = ask(s);
+    if (status != STRUM_OK)
+        return status;
     *count = series_arithmetics[s->counting].count(&s->problem, w, &asymmetry);
     while (asymmetry > ASYMMETRY_MAX && asymmetry <= 1 && s->counting < s->finest)
         *count = series_arithmetics[++s->counting].count(&s->problem, w, &asymmetry);
     if (asymmetry > 1)
         return error_set(
-            s->fault, STRUM_ERR_ACCURACY,
+            s->error, STRUM_ERR_ACCURACY,
             "the series need more than %d terms at |xi| = %.6g (they diverge at 4)",
             SERIES_TERMS_MAX, (double)fmaxl(fabsl(s->problem.xi_1), fabsl(s->problem.xi_2)));
     return asymmetry <= ASYMMETRY_MAX ? STRUM_OK : refuse_digits(s, w);
@@ -191,6 +206,8 @@ static long double zero_between(search *s, const series_arithmetic *arithmetic, 
     for (int i = 0; i < 200; i++) {
         const long double x = a + t * (b - a);
         bool converged;
+        if (ask(s) != STRUM_OK) /* the caller sees it */
+            break;
         const long double f = arithmetic->determinant(&s->problem, x, &converged);
         if ((f > 0) == (fa > 0)) {
             c = a;
@@ -274,8 +291,10 @@ static strum_status refine_all(search *s, int count, double mass, strum_mode *mo
 {
     found *all = arena_alloc(&s->memory, (size_t)s->found, sizeof *all);
     if (all == NULL)
-        return error_set(s->fault, STRUM_ERR_MEMORY, "out of memory");
+        return STRUM_ERR_MEMORY;
     for (int i = 0; i < s->found; i++) {
+        if (ask(s) != STRUM_OK)
+            return s->work->status;
         all[i].in = s->brackets[i];
         for (all[i].level = SERIES_EXTENDED; all[i].level <= s->finest; all[i].level++) {
             all[i].w = refine(s, &all[i].in, all[i].level, &all[i].error);
@@ -284,6 +303,8 @@ static strum_status refine_all(search *s, int count, double mass, strum_mode *mo
             all[i].w = all[i].in.low;
         }
     }
+    if (s->work->status != STRUM_OK)
+        return s->work->status;
     qsort(all, (size_t)s->found, sizeof *all, by_w);
     for (int i = 0; i < count; i++) {
         if (!(all[i].error <= TOLERANCE))
@@ -297,38 +318,51 @@ static strum_status refine_all(search *s, int count, double mass, strum_mode *mo
     return STRUM_OK;
 }
 
-strum_status strum_series_solve(const strum_cable *cable, strum_plane plane, int count,
-                                bool thorough, strum_mode *modes, strum_series_report *report,
-                                strum_error *fault)
+/* With its own room; errors without a reason are STRUM_ERR_MEMORY and what the work ended. */
+static strum_status solve(search *s, const strum_series_params *params, strum_mode *modes,
+                          strum_series_report *report)
 {
-    *report = (strum_series_report){0};
-    strum_status status = strum_series_applies(cable, plane, fault);
-    if (status != STRUM_OK)
-        return status;
-    if (count < 1 || count > STRUM_MODES_MAX)
-        return error_set(fault, STRUM_ERR_RANGE, "1 to %d modes can be asked for",
-                         STRUM_MODES_MAX);
-    search s = {.finest = thorough ? SERIES_QUADRUPLE : SERIES_EXTENDED,
-                .counting = SERIES_EXTENDED,
-                .fault = fault};
-    const strum_cable unit = {.chi_m = cable->chi_m, .mu = cable->mu, .mass_t = 1, .mass_n = 1};
-    problem_make(&unit, plane, &s.problem);
-    status = problem_allocate(&s.problem, &s.memory);
-    if (status != STRUM_OK)
-        (void)error_set(fault, status, "out of memory");
+    const strum_cable *c = &params->cable;
+    const strum_cable unit = {.chi_m = c->chi_m, .mu = c->mu, .mass_t = 1, .mass_n = 1};
+    problem_make(&unit, params->plane, &s->problem);
+    strum_status status = problem_allocate(&s->problem, &s->memory);
     if (status == STRUM_OK)
-        status = isolate_all(&s, &unit, plane, count);
+        status = isolate_all(s, &unit, params->plane, params->count);
     if (status == STRUM_OK)
-        status = refine_all(&s, count, cable->mass_n, modes, report);
-    report->terms = s.problem.terms;
-    report->evaluations = s.problem.evaluations;
-    report->matching_xi = s.problem.near_zero && s.problem.near_two ? (double)MATCH : 0;
-    arena_free(&s.memory);
+        status = refine_all(s, params->count, c->mass_n, modes, report);
+    report->terms = s->problem.terms;
+    report->evaluations = s->problem.evaluations;
+    report->matching_xi = s->problem.near_zero && s->problem.near_two ? (double)MATCH : 0;
     return status;
 }
 
-double strum_series_work(const strum_cable *cable, strum_plane plane, int count, bool thorough)
+strum_status strum_series_solve(const strum_series_params *params, const strum_options *options,
+                                strum_mode *modes, strum_series_report *report,
+                                strum_error *error)
 {
+    *report = (strum_series_report){0};
+    strum_status status = strum_series_applies(&params->cable, params->plane, error);
+    if (status != STRUM_OK)
+        return status;
+    if (params->count < 1 || params->count > STRUM_MODES_MAX)
+        return error_at(error, STRUM_ERR_RANGE, STRUM_SERIES_ARG_COUNT, STRUM_NO_INDEX,
+                        "1 to %d modes can be asked for", STRUM_MODES_MAX);
+    work w = work_begin(options);
+    search s = {.finest = params->thorough ? SERIES_QUADRUPLE : SERIES_EXTENDED,
+                .counting = SERIES_EXTENDED,
+                .memory = {.work = &w},
+                .work = &w,
+                .error = error};
+    status = solve(&s, params, modes, report);
+    arena_free(&s.memory);
+    return status == STRUM_ERR_ACCURACY ? status : work_result(&w, status, error);
+}
+
+double strum_series_work(const strum_series_params *params)
+{
+    const strum_cable *cable = &params->cable;
+    const strum_plane plane = params->plane;
+    const int count = params->count;
     if (strum_series_applies(cable, plane, NULL) != STRUM_OK)
         return 0;
     series_problem p;
@@ -341,5 +375,5 @@ double strum_series_work(const strum_cable *cable, strum_plane plane, int count,
     const double loss = 0.8 * w * fmin(chi * sqrt(cosh(0.7 * chi)), 1.2);
     /* measured, in microseconds a term: 0.055 in extended, 0.4 in quadruple precision */
     return 20 + evaluation * (0.055 * (17 * count + 10) +
-                              (thorough && loss > 18 ? 0.12 * loss * count : 0));
+                              (params->thorough && loss > 18 ? 0.12 * loss * count : 0));
 }
