@@ -4,10 +4,10 @@
 #
 # One would guess: a converter that knows rad/s, rpm, cycles and Hz knows that 2 pi rad/s, 60 rpm and one cycle a second are 1 Hz, as
 #   everyone who states a vibration means it; or it refuses, since Hz counts and rad/s turns.
-# What happens: there are three schools. UDUNITS (netCDF's library), Pint and GNU units take the radian for the number one and a turn for
-#   2 pi of it: 1 rad/s is 1 Hz, 60 rpm are 6.28 Hz, without a warning. UDUNITS carries it to the end: 1 cps, and 1 cycle/s, is 6.28 Hz;
-#   Pint's cps is 1 Hz, since its c stands for counts. convert-units says 0.159 Hz and 1 Hz, what an engineer means. mathjs refuses rad/s,
-#   js-quantities refuses both.
+# What happens: there are three schools. UDUNITS (netCDF's library), Pint and GNU units take the radian for the number one and a turn for 2
+#   pi of it: 1 rad/s is 1 Hz, 60 rpm are 6.28 Hz, without a warning. UDUNITS carries it to the end: 1 cps, and 1 cycle/s, is 6.28 Hz;
+#   Pint's cps is 1 Hz, since its c stands for counts. GNU units must be asked for radian/s: its rad is a dose of radiation. convert-units
+#   says 0.159 Hz and 1 Hz, what an engineer means. mathjs refuses rad/s, js-quantities refuses both.
 # What follows: a frequency in rad/s that goes through such a library as "Hz" is wrong by 2 pi, a damper tuned by it useless; divide by
 #   2 pi oneself, and give the units as plain numbers.
 # Seen with UDUNITS 2.2.28-5, python3-pint 0.19.2-1, units 2.22-2 (Debian 12), convert-units 2.3.4, mathjs 15.2.0 and js-quantities 1.8.0
@@ -41,7 +41,7 @@ hertz() { # hertz NAME VALUE UNIT: so many Hz, or "refused"
     case $1 in
     UDUNITS) LD_LIBRARY_PATH=$place/usr/lib/x86_64-linux-gnu UDUNITS2_XML_PATH=$share/xml/udunits/udunits2.xml \
         "$place/usr/bin/udunits2" -H "$2 $3" -W Hz 2>&1 | sed -n '1s/.*= \(.*\) Hz/\1/p' ;;
-    "GNU units") "$place/usr/bin/units" -f "$share/units/definitions.units" -t "$2 $3" Hz 2>/dev/null | awk '{ print $1 }' ;;
+    "GNU units") "$place/usr/bin/units" -f "$share/units/definitions.units" -t "$2 $3" "${4:-Hz}" 2>/dev/null | awk '{ print $1 }' ;;
     Pint) PYTHONPATH=$place/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c '
 import sys
 import pint
@@ -63,8 +63,11 @@ expect() { # expect WANTED VALUE UNIT NAME...
     done
 }
 echo "units 2.22, UDUNITS 2.2.28, Pint 0.19.2, convert-units 2.3.4, mathjs 15.2.0, js-quantities 1.8.0:"
-expect 1 1 rad/s UDUNITS Pint "GNU units"
+expect 1 1 radian/s UDUNITS Pint "GNU units"
+expect 1 1 rad/s UDUNITS Pint
+expect failed 1 rad/s "GNU units"
 expect 0.159155 1 rad/s convert-units
+dose=$(hertz "GNU units" 1 rad Gy) && [ "$dose" = 0.01 ] && echo "  GNU units: 1 rad is $dose Gy" || status=1
 expect refused 1 rad/s mathjs js-quantities
 expect 6.283185 60 rpm UDUNITS Pint "GNU units"
 expect 1 60 rpm convert-units
