@@ -128,6 +128,12 @@ class UnitsChange(Law):
     # what measures roundings, and where something is largest: a flat maximum moves by the root of a rounding, or to its twin
     ROUNDINGS = ("verification", "longitudinal_energy", "max_relative_difference", "symmetric_share", "at_chi", "at_time_to_period")
 
+    def draw(self):
+        request = super().draw()
+        if any(part["type"] == "support" for part in request.get("components", ())):
+            request["nodes"] = False  # between two held points nothing moves: roundings say whether its end is a node
+        return request
+
     def second(self, answer):
         self.factors = [2.0 ** self.rng.randint(-3, 3) for _ in range(3)]
         scaled = copy.deepcopy(answer["request"])
