@@ -12,7 +12,7 @@ import re
 
 # How often an endpoint is asked. The search for an absorber is the costly one; cases are known and few.
 WEIGHTS = {"/v1/catenary/frequencies": 28, "/v1/forced/tension": 14, "/v1/inclined/modes": 24, "/v1/taut/modes": 22,
-           "/v1/taut/matrix": 11, "/v1/absorber/optimize": .6, "/v1/validation": .4}
+           "/v1/taut/matrix": 11, "/v1/absorber/optimize": .6, "/v1/validation": .1}
 EXTREMES = [0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1e-308, 1e-300, 1e-160, 1e-16, 1 - 2 ** -53, 1.0, 1 + 2 ** -52,
             2.0 ** 31, 2.0 ** 53, 1e16, 1e155, 1e300, 1e308, 1.7976931348623157e308]
 TEXTS = ["", "NaN", "Infinity", "infinite", "1", "é", "\u0000", "a" * 100]
@@ -236,6 +236,8 @@ class Ease:
             return
         if path in ("/v1/catenary/frequencies", "/v1/forced/tension"):
             self.suspended(path, request)
+        if "band_rad_per_s" in request:
+            self.band(request)
         if path == "/v1/taut/modes" and any(self.damps(part) for part in request.get("components", ())):
             self.damped_chain(request)
         if path == "/v1/validation":  # all cases take seconds
@@ -279,6 +281,16 @@ class Ease:
             if "frequency_ratios" in request:
                 request.pop("points", None)
 
+    def band(self, request):
+        """By how many modes lie below its top: the phase along the cables over pi."""
+        phase = sum(part["length_m"] * math.sqrt(part["mass_kg_per_m"] / (part.get("tension_N") or request["tension_N"]))
+                    for part in request["components"]
+                    if all(isinstance(part.get(name, 1), (int, float)) for name in ("length_m", "mass_kg_per_m", "tension_N"))
+                    and "length_m" in part and "mass_kg_per_m" in part and isinstance(request["tension_N"], (int, float)))
+        top = max(1e-6, min(1e6, 100 / phase if phase > 0 else 1))
+        if request["band_rad_per_s"][1] > top:
+            request["band_rad_per_s"] = sorted([top * self.rng.uniform(.9, 1), top])
+
     @staticmethod
     def damps(part):
         return part.get("drag_N_s_per_m2") or part.get("damping_N_s_per_m") or "joints" in part
@@ -291,7 +303,9 @@ class Ease:
         else:
             keep = heavy[:1] + light[:2]
             request["components"] = [part for part in request["components"] if any(part is one for one in keep)]
-        if "modes" in request or "mode_numbers" not in request and "band_rad_per_s" not in request:
+        request.pop("band_rad_per_s", None)
+        request.pop("max_decay_per_s", None)
+        if "mode_numbers" not in request:
             request["modes"] = self.rng.choice([1, 2, 3])
         request.pop("first_mode", None)
         if "mode_numbers" in request:

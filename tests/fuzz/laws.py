@@ -125,8 +125,14 @@ def same_form(one, other):
 class UnitsChange(Law):
     paths = (CATENARY, FORCED, INCLINED, TAUT)  # a matrix has another unit in each of its places
     relative = 1e-9
-    # what measures roundings, and what is counted on the way
-    ROUNDINGS = ("verification", "longitudinal_energy", "max_relative_difference", "symmetric_share")
+    # what measures roundings, and where something is largest: a flat maximum moves by the root of a rounding, or to its twin
+    ROUNDINGS = ("verification", "longitudinal_energy", "max_relative_difference", "symmetric_share", "at_chi", "at_time_to_period")
+
+    def draw(self):
+        request = super().draw()
+        if any(part["type"] == "support" for part in request.get("components", ())):
+            request["nodes"] = False  # between two held points nothing moves: roundings say whether its end is a node
+        return request
 
     def second(self, answer):
         self.factors = [2.0 ** self.rng.randint(-3, 3) for _ in range(3)]
