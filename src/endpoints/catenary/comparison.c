@@ -5,8 +5,6 @@
 
 #include <strum/handbook.h>
 
-const char *const plane_keys[] = {"in_plane", "out_of_plane"};
-
 /* ---- verification ---- */
 
 typedef struct opinion {
@@ -84,12 +82,7 @@ static strum_status confirm_series(const cable_input *in, strum_plane plane,
 
 static void write_opinion(json_writer *json, const opinion *o)
 {
-    const strum_verification *v = &o->second;
-    json_put_string(json, "method", v->method);
-    json_put_number(json, "max_relative_difference", v->max_relative_difference);
-    json_put_integer(json, "modes_expected", v->modes_expected);
-    json_put_integer(json, "modes_found", v->modes_found);
-    json_put_number(json, "max_residual", v->max_residual);
+    put_verification_members(json, &o->second);
     if (!o->has_series)
         return;
     json_key(json, "series");

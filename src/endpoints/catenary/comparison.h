@@ -16,9 +16,6 @@ typedef struct plane_modes {
     strum_series_report series;
 } plane_modes;
 
-/* Keys of the planes, by strum_plane. */
-extern const char *const plane_keys[];
-
 /* Cost of the series as a further method under `verify`, in microseconds; 0 where it does not
  * apply. */
 double verification_series_work(const cable_input *in, strum_plane plane, int count);

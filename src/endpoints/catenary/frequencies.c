@@ -115,12 +115,6 @@ static double cost_us(const void *data)
     return work + 0.2 * (double)r->shape_points * (double)r->modes;
 }
 
-static const char *symmetry_text(strum_symmetry symmetry)
-{
-    static const char *const texts[] = {"none", "symmetric", "antisymmetric"};
-    return texts[symmetry];
-}
-
 /* Real where the cable is undamped, {"re", "im"} where it is damped. */
 static void put_value(json_writer *json, const char *key, double _Complex value, bool damped)
 {
@@ -176,7 +170,7 @@ static bool write_modes(json_writer *json, const request *r, strum_plane plane,
         json_open_object(json);
         json_put_integer(json, "mode", k + 1);
         cable_write_rates(json, &r->in, CMPLX(-mode->decay, mode->frequency));
-        json_put_string(json, "symmetry", symmetry_text(mode->symmetry));
+        json_put_string(json, "symmetry", symmetry_names[mode->symmetry]);
         if (points > 0) {
             status = strum_modes_shape(found->spectrum, (size_t)k, NULL, (size_t)points, shape);
             if (status == STRUM_OK)
@@ -271,14 +265,12 @@ static bool answer_rayleigh(const request *r, answer *a)
     json_close_array(json);
     if (exact != NULL) {
         const double difference = fabs(estimate / first.frequency - 1);
-        json_key(json, "verification");
-        json_open_object(json);
-        json_put_string(json, "method", "displacement Galerkin (exact to 1e-12)");
-        json_put_number(json, "max_relative_difference", difference);
-        json_put_integer(json, "modes_expected", 1);
-        json_put_integer(json, "modes_found", 1);
-        json_put_number(json, "max_residual", difference);
-        json_close_object(json);
+        put_verification(
+            json, &(strum_verification){.method = "displacement Galerkin (exact to 1e-12)",
+                                        .max_relative_difference = difference,
+                                        .modes_expected = 1,
+                                        .modes_found = 1,
+                                        .max_residual = difference});
         strum_modes_free(exact);
     }
     json_close_object(json);

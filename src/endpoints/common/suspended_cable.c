@@ -169,11 +169,8 @@ void cable_write_rates(json_writer *json, const cable_input *in, double _Complex
     const double angular = frequency * to_rad_per_s;
     if (frequency > 0) {
         json_put_number(json, "frequency_ratio", frequency * in->ratio);
-        if (to_rad_per_s > 0) {
-            json_put_number(json, "angular_frequency_rad_per_s", angular);
-            json_put_number(json, "frequency_Hz", angular / (2 * M_PI));
-            json_put_number(json, "period_s", 2 * M_PI / angular);
-        }
+        if (to_rad_per_s > 0)
+            put_frequency(json, angular);
     }
     if (!cable_damped(in))
         return;

@@ -6,6 +6,7 @@
 
 #include <strum/catenary.h>
 
+#include "endpoints/common/members.h"
 #include "endpoints/endpoint.h"
 
 /* First member of a request struct, so that CABLE_FIELDS' offsets hold there too. */

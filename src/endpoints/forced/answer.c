@@ -62,20 +62,14 @@ static double degrees(double radians)
 static void write_frequency(json_writer *json, const forced_request *r, double frequency_ratio)
 {
     json_put_number(json, "frequency_ratio", frequency_ratio);
-    if (r->in.rad_per_s > 0) {
-        const double angular = frequency_ratio * r->in.rad_per_s;
-        json_put_number(json, "angular_frequency_rad_per_s", angular);
-        json_put_number(json, "frequency_Hz", angular / (2 * M_PI));
-        if (angular > 0)
-            json_put_number(json, "period_s", 2 * M_PI / angular);
-    }
+    if (r->in.rad_per_s > 0)
+        put_frequency(json, frequency_ratio * r->in.rad_per_s);
 }
 
 static void write_unbounded(json_writer *json, const solving *s)
 {
-    const char *plane = s->at.plane == STRUM_IN_PLANE ? "in_plane" : "out_of_plane";
     json_put_flag(json, "unbounded", true);
-    json_put_string(json, "plane", plane);
+    json_put_string(json, "plane", plane_keys[s->at.plane]);
     json_put_number(json, "natural_frequency_ratio", s->at.frequency * s->r->in.ratio);
     json_put_string(
         json, "statement",
@@ -240,12 +234,6 @@ static strum_status write_profiles(json_writer *json, solving *s, const answer *
     return status;
 }
 
-static const char *symmetry_text(strum_symmetry symmetry)
-{
-    static const char *const texts[] = {"none", "symmetric", "antisymmetric"};
-    return texts[symmetry];
-}
-
 /* True when some harmonic at `multiple`, the first such one being `i`, moves the end in this
  * plane. */
 static bool drives(const forced_request *r, int i, strum_plane plane)
@@ -278,11 +266,10 @@ static void write_resonance(json_writer *json, const forced_request *r,
         if (!on_curve(r, forcing) || !drives(r, i, at->plane))
             continue;
         json_open_object(json);
-        json_put_string(json, "plane",
-                        at->plane == STRUM_IN_PLANE ? "in_plane" : "out_of_plane");
+        json_put_string(json, "plane", plane_keys[at->plane]);
         json_put_integer(json, "mode", at->mode);
         cable_write_rates(json, &r->in, CMPLX(-decay, at->frequency));
-        json_put_string(json, "symmetry", symmetry_text(at->symmetry));
+        json_put_string(json, "symmetry", symmetry_names[at->symmetry]);
         if (strength >= 0)
             json_put_number(json, "strength", strength);
         if (forced_periodic(r)) {
@@ -418,18 +405,15 @@ static strum_status write_verification(json_writer *json, solving *s,
         status = count_modes(r, list, count, &options, &expected, fault);
     if (status != STRUM_OK)
         return status;
-    json_key(json, "verification");
-    json_open_object(json);
-    json_put_string(
-        json, "method",
-        "shooting of the first-order system (extrapolated midpoint rule), at profiles and up "
-        "to 9 "
-        "frequencies of the curve; natural frequencies counted by the displacement form");
-    json_put_number(json, "max_relative_difference", tension);
-    json_put_integer(json, "modes_expected", expected);
-    json_put_integer(json, "modes_found", count);
-    json_put_number(json, "max_residual", displacement);
-    json_close_object(json);
+    put_verification(
+        json, &(strum_verification){
+                  .method = "shooting of the first-order system (extrapolated midpoint rule), "
+                            "at profiles and up to 9 frequencies of the curve; natural "
+                            "frequencies counted by the displacement form",
+                  .max_relative_difference = tension,
+                  .modes_expected = expected,
+                  .modes_found = count,
+                  .max_residual = displacement});
     return STRUM_OK;
 }
 

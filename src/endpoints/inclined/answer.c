@@ -75,24 +75,19 @@ static void write_crossover(json_writer *json, const inclined_request *r)
 static void write_frequency(json_writer *json, const inclined_request *r, double kl)
 {
     json_put_number(json, "kl_over_pi", kl / M_PI);
-    if (r->rad_per_s > 0) {
-        const double angular = kl * r->rad_per_s;
-        json_put_number(json, "angular_frequency_rad_per_s", angular);
-        json_put_number(json, "frequency_Hz", angular / (2 * M_PI));
-        json_put_number(json, "period_s", 2 * M_PI / angular);
-    }
+    if (r->rad_per_s > 0)
+        put_frequency(json, kl * r->rad_per_s);
 }
 
 static void write_mode(json_writer *json, const inclined_request *r,
                        const strum_inclined_mode *mode)
 {
     static const char *const families[] = {"transverse", "longitudinal", "hybrid"};
-    static const char *const symmetries[] = {"none", "symmetric", "antisymmetric"};
     const double slope = r->cable.epsilon * cos(r->cable.inclination);
     write_frequency(json, r, mode->kl);
     json_put_string(json, "family", families[mode->family]);
     json_put_number(json, "longitudinal_energy", mode->longitudinal_energy);
-    json_put_string(json, "symmetry", symmetries[mode->symmetry]);
+    json_put_string(json, "symmetry", symmetry_names[mode->symmetry]);
     json_put_number(json, "symmetric_share", fmin(fmax(mode->symmetric_share, 0), 1));
     json_put_flag(json, "hybrid_region", mode->hybrid_region);
     json_put_number(json, "tension_amplification", mode->tension_amplification);
@@ -278,14 +273,7 @@ static strum_status write_verification(json_writer *json, const strum_inclined *
     const strum_status status = strum_inclined_verify(modes, options, &v, error);
     if (status != STRUM_OK)
         return status;
-    json_key(json, "verification");
-    json_open_object(json);
-    json_put_string(json, "method", v.method);
-    json_put_number(json, "max_relative_difference", v.max_relative_difference);
-    json_put_integer(json, "modes_expected", v.modes_expected);
-    json_put_integer(json, "modes_found", v.modes_found);
-    json_put_number(json, "max_residual", v.max_residual);
-    json_close_object(json);
+    put_verification(json, &v);
     return STRUM_OK;
 }
 
