@@ -53,12 +53,12 @@ static strum_status sample(const strum_cable *cable, const legendre *b, int firs
     return STRUM_OK;
 }
 
-/* Modes of the first `n` functions: M v = (1/w^2) K v. */
-static strum_status solve(const strum_cable *cable, strum_symmetry symmetry, int full,
-                          const double *inertia, const double *stiffness, int n, int want,
-                          arena *a, root_list *list)
+/* Modes of the first `n` functions: M v = (1/w^2) K v, M and then K of `full` functions. */
+static strum_status solve(const root_search *q, strum_symmetry symmetry, const double *inertia,
+                          int full, int n, arena *a, root_list *list)
 {
-    want = want < n ? want : n;
+    const int want = q->want < n ? q->want : n;
+    const double *stiffness = inertia + (size_t)full * (size_t)full;
     double *mu = arena_doubles(a, (size_t)n);
     if (mu == NULL)
         return STRUM_ERR_MEMORY;
@@ -69,15 +69,16 @@ static strum_status solve(const strum_cable *cable, strum_symmetry symmetry, int
         status = root_list_grow(list, 2 * want, a);
     const root model = {.symmetry = symmetry};
     for (int i = 0; status == STRUM_OK && i < want; i++)
-        roots_of_natural(1 / sqrt(mu[i]), cable->eta_t / cable->mass_t, &model, list);
+        roots_of_natural(1 / sqrt(mu[i]), q->cable->eta_t / q->cable->mass_t, &model, list);
     return status;
 }
 
-strum_status displacement_roots(const strum_cable *cable, bool by_symmetry, int size, int block,
-                                int want, arena *a, root_list *list, root_list *inner)
+strum_status displacement_roots(const root_search *q, bool by_symmetry, arena *a,
+                                root_list *list, root_list *inner)
 {
     legendre b;
-    const strum_status made = legendre_make(size + 3, M_PI_2 / cable->mu, by_symmetry, a, &b);
+    const strum_status made =
+        legendre_make(q->size + 3, M_PI_2 / q->cable->mu, by_symmetry, a, &b);
     if (made != STRUM_OK)
         return made;
     const int classes = by_symmetry ? 2 : 1;
@@ -86,19 +87,18 @@ strum_status displacement_roots(const strum_cable *cable, bool by_symmetry, int 
         const strum_symmetry symmetry = !by_symmetry ? STRUM_NO_SYMMETRY
                                         : i == 0     ? STRUM_ANTISYMMETRIC
                                                      : STRUM_SYMMETRIC;
-        const int n = (size - i + classes - 1) / classes;
+        const int n = (q->size - i + classes - 1) / classes;
         samples s = {.count = n};
-        strum_status status = sample(cable, &b, 2 + i, classes, a, &s);
+        strum_status status = sample(q->cable, &b, 2 + i, classes, a, &s);
         double *matrices = arena_room(a, 2 * (size_t)n * (size_t)n);
         if (status != STRUM_OK || matrices == NULL)
             return STRUM_ERR_MEMORY;
-        double *stiffness = matrices + (size_t)n * (size_t)n;
-        linalg_gram(n, s.points, s.strain, s.points, stiffness, n);
+        linalg_gram(n, s.points, s.strain, s.points, matrices + (size_t)n * (size_t)n, n);
         linalg_gram(n, 2 * s.points, s.motion, 2 * s.points, matrices, n);
-        status = solve(cable, symmetry, n, matrices, stiffness, n, want, a, list);
+        status = solve(q, symmetry, matrices, n, n, a, list);
         if (status == STRUM_OK && inner != NULL)
-            status = solve(cable, symmetry, n, matrices, stiffness,
-                           (block - i + classes - 1) / classes, want, a, inner);
+            status = solve(q, symmetry, matrices, n, (q->block - i + classes - 1) / classes, a,
+                           inner);
         if (status != STRUM_OK)
             return status;
     }

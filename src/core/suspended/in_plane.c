@@ -133,9 +133,8 @@ static void invert_gram(const in_plane_part *part, double r[2][2], double invers
  * Least squares of the columns on the constants' samples: the columns keep their residual,
  * which makes A positive semidefinite as computed and keeps its digits on a taut cable.
  */
-static strum_status project(const in_plane_frame *f, const in_plane_part *part,
-                            const double *root_t, const double *root_n, rows *w,
-                            in_plane_constants *constants, arena *scratch)
+static strum_status project(const in_plane_frame *f, in_plane_part *part, const double *root_t,
+                            const double *root_n, rows *w, arena *scratch)
 {
     const int n = w->count, m = part->constant_count;
     double *q = arena_room(scratch, (size_t)n * 2);
@@ -155,8 +154,7 @@ static strum_status project(const in_plane_frame *f, const in_plane_part *part,
         for (int i = 0; i < n; i++)
             column[i] /= r[k][k];
     }
-    if (constants != NULL) /* (W_c'W_c)^-1 = R^-1 R^-T */
-        invert_gram(part, r, constants->from_motion);
+    invert_gram(part, r, part->rule.from_motion); /* (W_c'W_c)^-1 = R^-1 R^-T */
     for (int j = 0; j < part->count; j++) {
         double *column = w->data + (size_t)j * (size_t)n, y[2] = {0};
         for (int pass = 0; pass < 2; pass++)
@@ -167,9 +165,7 @@ static strum_status project(const in_plane_frame *f, const in_plane_part *part,
                 for (int i = 0; i < n; i++)
                     column[i] -= along * basis_k[i];
             }
-        if (constants == NULL)
-            continue;
-        double *c = constants->from_unknowns + 2 * (size_t)j;
+        double *c = part->rule.from_unknowns + 2 * (size_t)j;
         c[0] = c[1] = 0;
         if (m == 2)
             y[0] -= r[0][1] / r[1][1] * y[1];
@@ -180,13 +176,14 @@ static strum_status project(const in_plane_frame *f, const in_plane_part *part,
 }
 
 strum_status in_plane_compliance(const strum_cable *cable, const in_plane_frame *f,
-                                 const in_plane_part *part, in_plane_form form,
-                                 double *compliance, in_plane_constants *constants,
-                                 arena *scratch)
+                                 in_plane_form form, in_plane_part *part, arena *a)
 {
     const int points = f->b->points;
-    double *root_n = arena_room(scratch, 2 * (size_t)points);
-    if (root_n == NULL)
+    const size_t n = (size_t)part->count;
+    double *root_n = arena_room(a, 2 * (size_t)points);
+    part->compliance = arena_room(a, n * n);
+    part->rule.from_unknowns = arena_room(a, 2 * n);
+    if (root_n == NULL || part->compliance == NULL || part->rule.from_unknowns == NULL)
         return STRUM_ERR_MEMORY;
     double *root_t = cable->kappa_t > 0 ? root_n + points : NULL;
     for (int i = 0; i < points; i++) {
@@ -197,11 +194,11 @@ strum_status in_plane_compliance(const strum_cable *cable, const in_plane_frame 
     }
     rows w;
     strum_status status = sample_part(f, part, form == IN_PLANE_FORCE_FORM ? f->b->q : f->b->p,
-                                      root_t, root_n, false, scratch, &w);
+                                      root_t, root_n, false, a, &w);
     if (status == STRUM_OK)
-        status = project(f, part, root_t, root_n, &w, constants, scratch);
+        status = project(f, part, root_t, root_n, &w, a);
     if (status == STRUM_OK)
-        linalg_gram(part->count, w.count, w.data, w.count, compliance, part->count);
+        linalg_gram(part->count, w.count, w.data, w.count, part->compliance, part->count);
     return status;
 }
 

@@ -9,26 +9,23 @@
 #include "core/numerics/work.h"
 #include "core/suspended/displacement.h"
 
-strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_plane plane,
-                            in_plane_form form, int size, int block, int want, bool vectors,
-                            arena *a, root_list *list, root_list *inner,
+strum_status spectrum_roots(const root_search *q, arena *a, root_list *list, root_list *inner,
                             in_plane_part *parts[3])
 {
-    if (plane == STRUM_OUT_OF_PLANE)
-        return out_of_plane_roots(cable, x, form == IN_PLANE_CLAMPED_FORM, size, block, want,
-                                  vectors, a, list, inner);
-    const bool level = cable->chi_m == 0;
+    if (q->plane == STRUM_OUT_OF_PLANE)
+        return out_of_plane_roots(q, a, list, inner);
+    const bool level = q->cable->chi_m == 0;
     const strum_symmetry first = level ? STRUM_SYMMETRIC : STRUM_NO_SYMMETRY;
     const strum_symmetry last = level ? STRUM_ANTISYMMETRIC : STRUM_NO_SYMMETRY;
     for (strum_symmetry symmetry = first; symmetry <= last; symmetry++) {
         in_plane_assembly *m = arena_alloc(a, 1, sizeof *m);
         if (m == NULL)
             return STRUM_ERR_MEMORY;
-        strum_status status = in_plane_assemble(cable, x, symmetry, form, size, a, m);
+        strum_status status = in_plane_assemble(q, symmetry, a, m);
         if (status == STRUM_OK)
-            status = in_plane_roots(cable, m, form, size, want, vectors, a, list);
+            status = in_plane_roots(q, m, q->size, q->vectors, a, list);
         if (status == STRUM_OK && inner != NULL)
-            status = in_plane_roots(cable, m, form, block, want, false, a, inner);
+            status = in_plane_roots(q, m, q->block, false, a, inner);
         if (status != STRUM_OK)
             return status;
         if (parts != NULL)
@@ -244,12 +241,17 @@ static strum_status attempt(strum_modes *sp, int size, int block, int want, int 
     root_list all = {0}, inner = {0}, modes, inner_modes;
     double *inner_decays;
     int inner_overdamped;
-    strum_status status =
-        by_displacement(&sp->cable, sp->plane, sp->shapes)
-            ? displacement_roots(&sp->cable, sp->cable.chi_m == 0, size, block, want, a, &all,
-                                 &inner)
-            : spectrum_roots(&sp->cable, &sp->coordinate, sp->plane, IN_PLANE_FORCE_FORM, size,
-                             block, want, sp->shapes, a, &all, &inner, sp->parts);
+    const root_search q = {.cable = &sp->cable,
+                           .x = &sp->coordinate,
+                           .plane = sp->plane,
+                           .form = IN_PLANE_FORCE_FORM,
+                           .size = size,
+                           .block = block,
+                           .want = want,
+                           .vectors = sp->shapes};
+    strum_status status = by_displacement(&sp->cable, sp->plane, sp->shapes)
+                              ? displacement_roots(&q, sp->cable.chi_m == 0, a, &all, &inner)
+                              : spectrum_roots(&q, a, &all, &inner, sp->parts);
     if (status == STRUM_OK)
         status = spectrum_sort(&sp->cable, sp->plane, &all, count, a, &modes, &sp->decays,
                                &sp->overdamped);

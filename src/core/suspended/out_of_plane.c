@@ -52,11 +52,12 @@ typedef struct class_problem {
 
 /* Roots of the first `n` unknowns. The matrices are graded: no vectors are needed to mend
  * values. */
-static strum_status class_roots(const strum_cable *cable, const class_problem *c, int n,
-                                int want, bool vectors, arena *a, root_list *list)
+static strum_status class_roots(const root_search *q, const class_problem *c, int n,
+                                bool vectors, arena *a, root_list *list)
 {
+    const strum_cable *cable = q->cable;
     const size_t count = (size_t)n;
-    want = want < n ? want : n;
+    const int want = q->want < n ? q->want : n;
     double *mu = arena_doubles(a, count);
     double *v = vectors ? arena_doubles(a, count * (size_t)want) : NULL;
     if (mu == NULL || (vectors && v == NULL))
@@ -131,15 +132,16 @@ static strum_status class_make(const legendre *b, const double *value, const dou
     return STRUM_OK;
 }
 
-strum_status out_of_plane_roots(const strum_cable *cable, const mapping *x, bool force_form,
-                                int size, int block, int want, bool vectors, arena *a,
-                                root_list *list, root_list *inner)
+strum_status out_of_plane_roots(const root_search *q, arena *a, root_list *list,
+                                root_list *inner)
 {
-    const bool level = cable->chi_m == 0;
+    const strum_cable *cable = q->cable;
+    const mapping *x = q->x;
+    const bool force_form = q->form == IN_PLANE_CLAMPED_FORM, level = cable->chi_m == 0;
     const bool identity = !force_form && cable->kappa_n == 0 && x->stretch == 0;
     legendre b;
     double *value, *slope;
-    strum_status status = legendre_make(size, mapping_singularity(x), level, a, &b);
+    strum_status status = legendre_make(q->size, mapping_singularity(x), level, a, &b);
     if (status == STRUM_OK)
         status = weigh(cable, x, force_form, &b, a, &value, &slope);
     const strum_symmetry first = level ? STRUM_SYMMETRIC : STRUM_NO_SYMMETRY;
@@ -148,12 +150,12 @@ strum_status out_of_plane_roots(const strum_cable *cable, const mapping *x, bool
         class_problem c = {.symmetry = symmetry};
         status = class_make(&b, value, slope, force_form, identity, a, &c);
         if (status == STRUM_OK)
-            status = class_roots(cable, &c, c.count, want, vectors, a, list);
+            status = class_roots(q, &c, c.count, q->vectors, a, list);
         int n = 0;
-        while (n < c.count && c.index[n] < block)
+        while (n < c.count && c.index[n] < q->block)
             n++;
         if (status == STRUM_OK && inner != NULL)
-            status = class_roots(cable, &c, n, want, false, a, inner);
+            status = class_roots(q, &c, n, false, a, inner);
     }
     return status;
 }

@@ -39,42 +39,44 @@ strum_status root_list_grow(root_list *list, int more, arena *a)
     return STRUM_OK;
 }
 
-strum_status in_plane_assemble(const strum_cable *cable, const mapping *x,
-                               strum_symmetry symmetry, in_plane_form form, int size, arena *a,
+strum_status in_plane_begin(const root_search *q, strum_symmetry symmetry, arena *a,
+                            legendre *basis, in_plane_frame *frame, in_plane_part *part)
+{
+    strum_status status = legendre_make(q->size, mapping_singularity(q->x),
+                                        symmetry != STRUM_NO_SYMMETRY, a, basis);
+    if (status == STRUM_OK)
+        status = in_plane_frame_make(q->x, basis, a, frame);
+    if (status == STRUM_OK)
+        status = in_plane_part_make(symmetry, q->form, q->size, a, part);
+    return status == STRUM_OK ? in_plane_compliance(q->cable, frame, q->form, part, a) : status;
+}
+
+strum_status in_plane_assemble(const root_search *q, strum_symmetry symmetry, arena *a,
                                in_plane_assembly *out)
 {
-    legendre b;
+    legendre basis;
     in_plane_frame frame;
-    strum_status status =
-        legendre_make(size, mapping_singularity(x), symmetry != STRUM_NO_SYMMETRY, a, &b);
-    if (status == STRUM_OK)
-        status = in_plane_frame_make(x, &b, a, &frame);
-    if (status == STRUM_OK)
-        status = in_plane_part_make(symmetry, form, size, a, &out->part);
+    const strum_cable *cable = q->cable;
+    strum_status status = in_plane_begin(q, symmetry, a, &basis, &frame, &out->part);
     if (status != STRUM_OK)
         return status;
     const size_t n = (size_t)out->part.count;
-    const bool symmetric = form == IN_PLANE_FORCE_FORM && in_plane_proportional(cable);
-    out->compliance = arena_room(a, n * n);
-    out->constants.from_unknowns = arena_doubles(a, 2 * n);
-    out->complementary = symmetric ? arena_room(a, n * n) : NULL;
-    out->mass = symmetric ? NULL : arena_room(a, n * n);
-    out->damping = symmetric ? NULL : arena_room(a, n * n);
-    if (out->compliance == NULL || out->constants.from_unknowns == NULL ||
-        (symmetric ? out->complementary == NULL : out->mass == NULL || out->damping == NULL))
+    if (q->form == IN_PLANE_FORCE_FORM && in_plane_proportional(cable)) {
+        out->complementary = arena_room(a, n * n);
+        return out->complementary == NULL
+                   ? STRUM_ERR_MEMORY
+                   : in_plane_complementary(1 / cable->mass_t, 1 / cable->mass_n, &frame,
+                                            &out->part, out->complementary, a);
+    }
+    out->mass = arena_room(a, n * n);
+    out->damping = arena_room(a, n * n);
+    if (out->mass == NULL || out->damping == NULL)
         return STRUM_ERR_MEMORY;
-    status = in_plane_compliance(cable, &frame, &out->part, form, out->compliance,
-                                 &out->constants, a);
-    if (status == STRUM_OK && symmetric)
-        return in_plane_complementary(1 / cable->mass_t, 1 / cable->mass_n, &frame, &out->part,
-                                      out->complementary, a);
-    if (status == STRUM_OK)
-        status = in_plane_inertia(cable->mass_t, cable->mass_n, &frame, &out->part, form,
-                                  out->mass, a);
-    if (status == STRUM_OK)
-        status = in_plane_inertia(cable->eta_t, cable->eta_n, &frame, &out->part, form,
-                                  out->damping, a);
-    return status;
+    status = in_plane_inertia(cable->mass_t, cable->mass_n, &frame, &out->part, q->form,
+                              out->mass, a);
+    return status == STRUM_OK ? in_plane_inertia(cable->eta_t, cable->eta_n, &frame, &out->part,
+                                                 q->form, out->damping, a)
+                              : status;
 }
 
 static void constants_of(const in_plane_assembly *m, root *r)
@@ -82,7 +84,7 @@ static void constants_of(const in_plane_assembly *m, root *r)
     r->constant[0] = r->constant[1] = 0;
     for (int j = 0; j < r->length; j++)
         for (int k = 0; k < 2; k++)
-            r->constant[k] += m->constants.from_unknowns[2 * j + k] * r->vector[j];
+            r->constant[k] += m->part.rule.from_unknowns[2 * j + k] * r->vector[j];
 }
 
 /* Appends symmetric eigenpairs mu = 1/w^2. */
@@ -109,25 +111,23 @@ static strum_status append_symmetric(double rate, int n, int want, const double 
 }
 
 /* Complementary form, undamped or proportionally damped: A f = (1/w^2) K f. */
-static strum_status complementary_roots(const strum_cable *cable, const in_plane_assembly *m,
-                                        int n, int want, bool vectors, arena *a,
-                                        root_list *list)
+static strum_status complementary_roots(const root_search *q, const in_plane_assembly *m, int n,
+                                        bool vectors, arena *a, root_list *list)
 {
-    const int full = m->part.count;
-    want = want < n ? want : n;
+    const int full = m->part.count, want = q->want < n ? q->want : n;
     const bool need = vectors || want > LINALG_POLISH_FROM;
     double *mu = arena_doubles(a, (size_t)n);
     double *v = need ? arena_doubles(a, (size_t)n * (size_t)want) : NULL;
     if (mu == NULL || (need && v == NULL))
         return STRUM_ERR_MEMORY;
     strum_status status =
-        linalg_symmetric(n, m->compliance, full, m->complementary, full, want, mu, v, a);
+        linalg_symmetric(n, m->part.compliance, full, m->complementary, full, want, mu, v, a);
     if (status != STRUM_OK)
         return status;
     const root model = {.symmetry = m->part.symmetry};
     const int before = list->count;
-    status = append_symmetric(cable->eta_t / cable->mass_t, n, want, mu, vectors ? v : NULL,
-                              &model, a, list);
+    status = append_symmetric(q->cable->eta_t / q->cable->mass_t, n, want, mu,
+                              vectors ? v : NULL, &model, a, list);
     for (int i = before; status == STRUM_OK && vectors && i < list->count; i++)
         constants_of(m, &list->items[i]);
     return status;
@@ -168,7 +168,7 @@ static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vect
     if (block == NULL || l == NULL || half == NULL)
         return STRUM_ERR_MEMORY;
     for (size_t j = 0; j < size; j++)
-        memcpy(block + j * size, m->compliance + j * (size_t)full, size * sizeof *block);
+        memcpy(block + j * size, m->part.compliance + j * (size_t)full, size * sizeof *block);
     int r;
     strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a);
     if (status != STRUM_OK)
@@ -222,8 +222,8 @@ static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vect
 }
 
 /* Mixed form without damping that is not proportional: L'ML g = (1/w^2) g. */
-static strum_status mixed_roots(const strum_cable *cable, const in_plane_assembly *m, int n,
-                                int want, arena *a, root_list *list)
+static strum_status mixed_roots(const root_search *q, const in_plane_assembly *m, int n,
+                                arena *a, root_list *list)
 {
     const int full = m->part.count;
     const size_t size = (size_t)n;
@@ -232,34 +232,32 @@ static strum_status mixed_roots(const strum_cable *cable, const in_plane_assembl
     if (block == NULL || l == NULL || half == NULL || mu == NULL)
         return STRUM_ERR_MEMORY;
     for (size_t j = 0; j < size; j++)
-        memcpy(block + j * size, m->compliance + j * (size_t)full, size * sizeof *block);
+        memcpy(block + j * size, m->part.compliance + j * (size_t)full, size * sizeof *block);
     int r;
     strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a);
     if (status != STRUM_OK)
         return status;
     linalg_multiply('N', 'N', n, r, n, m->mass, full, l, n, half, n);
     linalg_multiply('T', 'N', r, r, n, l, n, half, n, block, r);
-    want = want < r ? want : r;
+    const int want = q->want < r ? q->want : r;
     double *v = arena_doubles(a, (size_t)r * (size_t)want);
     if (v == NULL)
         return STRUM_ERR_MEMORY;
     status = linalg_symmetric(r, block, r, NULL, 0, want, mu, v, a);
     const root model = {.symmetry = m->part.symmetry};
-    return status == STRUM_OK ? append_symmetric(cable->eta_t / cable->mass_t, r, want, mu,
-                                                 NULL, &model, a, list)
+    return status == STRUM_OK ? append_symmetric(q->cable->eta_t / q->cable->mass_t, r, want,
+                                                 mu, NULL, &model, a, list)
                               : status;
 }
 
-strum_status in_plane_roots(const strum_cable *cable, const in_plane_assembly *m,
-                            in_plane_form form, int size, int want, bool vectors, arena *a,
-                            root_list *list)
+strum_status in_plane_roots(const root_search *q, const in_plane_assembly *m, int size,
+                            bool vectors, arena *a, root_list *list)
 {
     int n = 0;
     while (n < m->part.count && m->part.index[n] < size)
         n++;
-    if (!in_plane_proportional(cable))
+    if (!in_plane_proportional(q->cable))
         return quadratic_roots(m, n, vectors, n == m->part.count, a, list);
-    return form == IN_PLANE_FORCE_FORM
-               ? complementary_roots(cable, m, n, want, vectors, a, list)
-               : mixed_roots(cable, m, n, want, a, list);
+    return q->form == IN_PLANE_FORCE_FORM ? complementary_roots(q, m, n, vectors, a, list)
+                                          : mixed_roots(q, m, n, a, list);
 }
