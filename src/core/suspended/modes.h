@@ -45,13 +45,6 @@ strum_status spectrum_roots(const root_search *q, arena *a, root_list *list, roo
 strum_status spectrum_unscaled(const strum_cable *cable, int count, work *w,
                                strum_modes **modes, strum_error *error);
 
-/* Splits `list` into roots that oscillate (ascending frequency, at most `count`) and decay
- * rates (ascending); arrays are the arena's. Roots beyond what damping can reach are rounding
- * and left out. */
-strum_status spectrum_sort(const strum_cable *cable, strum_plane plane, const root_list *list,
-                           int count, arena *a, root_list *modes, double **decays,
-                           int *overdamped);
-
 /* Number of modes to expect below `frequency` from the phase of a travelling wave; an estimate
  * for sizes. */
 double spectrum_phase_count(const strum_cable *cable, strum_plane plane, double frequency);

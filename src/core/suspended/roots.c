@@ -155,37 +155,77 @@ static double _Complex polish_root(int n, const double *c, const double *m,
     return cabs(step) < 1e-4 * cabs(z) ? z - step : z;
 }
 
-/* `polish`: vectors are worth their time only at the full size, whose values are the answer.
- *
- * Mixed form: with A = LL' and g = L'f, z = 1/s solves z^2 g + z L'DL g + L'ML g = 0. */
+/* Mixed form: with A = LL' of the leading block and g = L'f, z = 1/s solves
+ * z^2 g + z L'DL g + L'ML g = 0. */
+typedef struct reduced {
+    int n, rank;
+    double *l, *half;
+} reduced;
+
+static strum_status reduce(const in_plane_assembly *m, int n, arena *a, reduced *d)
+{
+    const size_t size = (size_t)n * (size_t)n;
+    d->n = n;
+    d->l = arena_room(a, size);
+    d->half = arena_room(a, size);
+    if (d->l == NULL || d->half == NULL)
+        return STRUM_ERR_MEMORY;
+    return linalg_semidefinite_root(n, m->part.compliance, m->part.count, d->l, &d->rank, a);
+}
+
+/* L'ML of a matrix of `full` unknowns; NULL without memory. */
+static double *project(const reduced *d, const double *matrix, int full, arena *a)
+{
+    const int n = d->n, r = d->rank;
+    double *out = arena_room(a, (size_t)r * (size_t)r);
+    if (out == NULL)
+        return NULL;
+    linalg_multiply('N', 'N', n, r, n, matrix, full, d->l, n, d->half, n);
+    linalg_multiply('T', 'N', r, r, n, d->l, n, d->half, n, out, r);
+    return out;
+}
+
+/* x = -L g, f = (s^2 M + s D) x, and the constants. */
+static strum_status give_vector(const in_plane_assembly *m, const reduced *d,
+                                const double _Complex *g, arena *a, root *found)
+{
+    const size_t size = (size_t)d->n, rank = (size_t)d->rank, full = (size_t)m->part.count;
+    double _Complex *x = arena_alloc(a, 2 * size, sizeof *x);
+    if (x == NULL)
+        return STRUM_ERR_MEMORY;
+    double _Complex *f = x + size;
+    for (size_t i = 0; i < rank; i++)
+        for (size_t j = 0; j < size; j++)
+            x[j] -= d->l[j + i * size] * g[i];
+    for (size_t i = 0; i < size; i++)
+        for (size_t j = 0; j < size; j++)
+            f[j] += (found->s * found->s * m->mass[j + i * full] +
+                     found->s * m->damping[j + i * full]) *
+                    x[i];
+    found->vector = f;
+    found->length = d->n;
+    constants_of(m, found);
+    return STRUM_OK;
+}
+
+/* `polish`: vectors are worth their time only at the full size, whose values are the answer. */
 static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vectors,
                                     bool polish, arena *a, root_list *list)
 {
-    const int full = m->part.count;
-    const size_t size = (size_t)n;
-    double *block = arena_doubles(a, size * size), *l = arena_doubles(a, size * size);
-    double *half = arena_doubles(a, size * size);
-    if (block == NULL || l == NULL || half == NULL)
-        return STRUM_ERR_MEMORY;
-    for (size_t j = 0; j < size; j++)
-        memcpy(block + j * size, m->part.compliance + j * (size_t)full, size * sizeof *block);
-    int r;
-    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a);
+    reduced d;
+    strum_status status = reduce(m, n, a, &d);
     if (status != STRUM_OK)
         return status;
-    const size_t rank = (size_t)r;
-    double *c = arena_doubles(a, rank * rank), *mass = arena_doubles(a, rank * rank);
+    const size_t rank = (size_t)d.rank;
+    const double *c = project(&d, m->damping, m->part.count, a);
+    const double *mass = project(&d, m->mass, m->part.count, a);
     double _Complex *z = arena_alloc(a, 2 * rank, sizeof *z);
     double _Complex *g = polish ? arena_alloc(a, 2 * rank * rank, sizeof *g) : NULL;
     if (c == NULL || mass == NULL || z == NULL || (polish && g == NULL))
         return STRUM_ERR_MEMORY;
-    linalg_multiply('N', 'N', n, r, n, m->damping, full, l, n, half, n);
-    linalg_multiply('T', 'N', r, r, n, l, n, half, n, c, r);
-    linalg_multiply('N', 'N', n, r, n, m->mass, full, l, n, half, n);
-    linalg_multiply('T', 'N', r, r, n, l, n, half, n, mass, r);
-    status = linalg_quadratic(r, c, mass, z, g, a);
+    status = linalg_quadratic(d.rank, c, mass, z, g, a);
     if (status == STRUM_OK)
-        status = root_list_grow(list, 2 * r, a);
+        status = root_list_grow(list, 2 * d.rank, a);
     double largest = 0;
     for (size_t k = 0; k < 2 * rank; k++)
         largest = fmax(largest, cabs(z[k]));
@@ -195,28 +235,13 @@ static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vect
             continue;
         root found = {.symmetry = m->part.symmetry};
         const double _Complex *gk = polish ? g + k * rank : NULL;
-        found.s = 1 / (polish ? polish_root(r, c, mass, gk, z[k]) : z[k]);
+        found.s = 1 / (polish ? polish_root(d.rank, c, mass, gk, z[k]) : z[k]);
         if (cimag(z[k]) == 0)
             found.s = creal(found.s);
-        if (vectors) {
-            /* x = -L g, f = (s^2 M + s D) x */
-            double _Complex *x = arena_alloc(a, 2 * size, sizeof *x);
-            if (x == NULL)
-                return STRUM_ERR_MEMORY;
-            double _Complex *f = x + size;
-            for (size_t i = 0; i < rank; i++)
-                for (size_t j = 0; j < size; j++)
-                    x[j] -= l[j + i * size] * gk[i];
-            for (size_t i = 0; i < size; i++)
-                for (size_t j = 0; j < size; j++)
-                    f[j] += (found.s * found.s * m->mass[j + i * (size_t)full] +
-                             found.s * m->damping[j + i * (size_t)full]) *
-                            x[i];
-            found.vector = f;
-            found.length = n;
-            constants_of(m, &found);
-        }
-        list->items[list->count++] = found;
+        if (vectors)
+            status = give_vector(m, &d, gk, a, &found);
+        if (status == STRUM_OK)
+            list->items[list->count++] = found;
     }
     return status;
 }
@@ -225,25 +250,17 @@ static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vect
 static strum_status mixed_roots(const root_search *q, const in_plane_assembly *m, int n,
                                 arena *a, root_list *list)
 {
-    const int full = m->part.count;
-    const size_t size = (size_t)n;
-    double *block = arena_doubles(a, size * size), *l = arena_doubles(a, size * size);
-    double *half = arena_doubles(a, size * size), *mu = arena_doubles(a, size);
-    if (block == NULL || l == NULL || half == NULL || mu == NULL)
-        return STRUM_ERR_MEMORY;
-    for (size_t j = 0; j < size; j++)
-        memcpy(block + j * size, m->part.compliance + j * (size_t)full, size * sizeof *block);
-    int r;
-    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a);
+    reduced d;
+    strum_status status = reduce(m, n, a, &d);
     if (status != STRUM_OK)
         return status;
-    linalg_multiply('N', 'N', n, r, n, m->mass, full, l, n, half, n);
-    linalg_multiply('T', 'N', r, r, n, l, n, half, n, block, r);
-    const int want = q->want < r ? q->want : r;
+    const int r = d.rank, want = q->want < r ? q->want : r;
+    const double *matrix = project(&d, m->mass, m->part.count, a);
+    double *mu = arena_doubles(a, (size_t)n);
     double *v = arena_doubles(a, (size_t)r * (size_t)want);
-    if (v == NULL)
+    if (matrix == NULL || mu == NULL || v == NULL)
         return STRUM_ERR_MEMORY;
-    status = linalg_symmetric(r, block, r, NULL, 0, want, mu, v, a);
+    status = linalg_symmetric(r, matrix, r, NULL, 0, want, mu, v, a);
     const root model = {.symmetry = m->part.symmetry};
     return status == STRUM_OK ? append_symmetric(q->cable->eta_t / q->cable->mass_t, r, want,
                                                  mu, NULL, &model, a, list)
