@@ -53,12 +53,12 @@ static strum_status sample(const strum_cable *cable, const legendre *b, int firs
     return STRUM_OK;
 }
 
-/* Modes of the first `n` functions: M v = (1/w^2) K v. */
-static strum_status solve(const strum_cable *cable, strum_symmetry symmetry, int full,
-                          const double *inertia, const double *stiffness, int n, int want,
-                          arena *a, arena *scratch, root_list *list)
+/* Modes of the first `n` functions: M v = (1/w^2) K v, M and then K of `full` functions. */
+static strum_status solve(const root_search *q, strum_symmetry symmetry, const double *inertia,
+                          int full, int n, arena *a, arena *scratch, root_list *list)
 {
-    want = want < n ? want : n;
+    const int want = q->want < n ? q->want : n;
+    const double *stiffness = inertia + (size_t)full * (size_t)full;
     double *mu = arena_doubles(scratch, (size_t)n);
     if (mu == NULL)
         return STRUM_ERR_MEMORY;
@@ -69,46 +69,44 @@ static strum_status solve(const strum_cable *cable, strum_symmetry symmetry, int
         status = root_list_grow(list, 2 * want, a);
     const root model = {.symmetry = symmetry};
     for (int i = 0; status == STRUM_OK && i < want; i++)
-        roots_of_natural(1 / sqrt(mu[i]), cable->eta_t / cable->mass_t, &model, list);
+        roots_of_natural(1 / sqrt(mu[i]), q->cable->eta_t / q->cable->mass_t, &model, list);
     return status;
 }
 
-/* Functions first, first + classes, .. : one symmetry class, or all. */
+/* Functions first, first + step, .. : one symmetry class, or all. */
 typedef struct class_of {
     strum_symmetry symmetry;
     int first, step;
     int count, inner; /* functions, and those of the smaller size */
 } class_of;
 
-static strum_status class_roots(const strum_cable *cable, const legendre *b, const class_of *c,
-                                int want, arena *a, arena *scratch, root_list *list,
-                                root_list *inner)
+static strum_status class_roots(const root_search *q, const legendre *b, const class_of *c,
+                                arena *a, arena *scratch, root_list *list, root_list *inner)
 {
     const int n = c->count;
     samples s = {.count = n};
-    strum_status status = sample(cable, b, c->first, c->step, scratch, &s);
+    strum_status status = sample(q->cable, b, c->first, c->step, scratch, &s);
     double *matrices = arena_room(scratch, 2 * (size_t)n * (size_t)n);
     if (status != STRUM_OK || matrices == NULL)
         return STRUM_ERR_MEMORY;
-    double *stiffness = matrices + (size_t)n * (size_t)n;
-    status = linalg_gram(n, s.points, s.strain, s.points, stiffness, n, a->work);
+    status = linalg_gram(n, s.points, s.strain, s.points, matrices + (size_t)n * (size_t)n, n,
+                         a->work);
     if (status == STRUM_OK)
         status = linalg_gram(n, 2 * s.points, s.motion, 2 * s.points, matrices, n, a->work);
     if (status == STRUM_OK)
-        status = solve(cable, c->symmetry, n, matrices, stiffness, n, want, a, scratch, list);
+        status = solve(q, c->symmetry, matrices, n, n, a, scratch, list);
     if (status == STRUM_OK && inner != NULL)
-        status = solve(cable, c->symmetry, n, matrices, stiffness, c->inner, want, a, scratch,
-                       inner);
+        status = solve(q, c->symmetry, matrices, n, c->inner, a, scratch, inner);
     return status;
 }
 
-strum_status displacement_roots(const strum_cable *cable, bool by_symmetry, int size, int block,
-                                int want, arena *a, root_list *list, root_list *inner)
+strum_status displacement_roots(const root_search *q, bool by_symmetry, arena *a,
+                                root_list *list, root_list *inner)
 {
     legendre b;
     arena functions = {.work = a->work};
     strum_status status =
-        legendre_make(size + 3, M_PI_2 / cable->mu, by_symmetry, &functions, &b);
+        legendre_make(q->size + 3, M_PI_2 / q->cable->mu, by_symmetry, &functions, &b);
     const int classes = by_symmetry ? 2 : 1;
     for (int i = 0; i < classes && status == STRUM_OK; i++) {
         /* phi_k has the parity of k; u is even in an antisymmetric mode */
@@ -117,10 +115,10 @@ strum_status displacement_roots(const strum_cable *cable, bool by_symmetry, int 
                                                      : STRUM_SYMMETRIC,
                             .first = 2 + i,
                             .step = classes,
-                            .count = (size - i + classes - 1) / classes,
-                            .inner = (block - i + classes - 1) / classes};
+                            .count = (q->size - i + classes - 1) / classes,
+                            .inner = (q->block - i + classes - 1) / classes};
         arena scratch = {.work = a->work};
-        status = class_roots(cable, &b, &c, want, a, &scratch, list, inner);
+        status = class_roots(q, &b, &c, a, &scratch, list, inner);
         arena_free(&scratch);
     }
     arena_free(&functions);

@@ -18,10 +18,10 @@
 #define DISPLACEMENT_CHI_PRECISE 2.3
 #define DISPLACEMENT_CHI_MAX     5.0
 
-/* The `want` lowest modes with `size` functions; of each symmetry class apart where
- * `by_symmetry` (level cables only). With `inner`, those of the first `block` functions too. */
-strum_status displacement_roots(const strum_cable *cable, bool by_symmetry, int size, int block,
-                                int want, arena *a, root_list *list, root_list *inner);
+/* The lowest modes of a search in chi itself; of each symmetry class apart where `by_symmetry`
+ * (level cables only). With `inner`, those of its smaller block too. */
+strum_status displacement_roots(const root_search *q, bool by_symmetry, arena *a,
+                                root_list *list, root_list *inner);
 
 /* Size at which the first `count` modes should be right to 1e-12. */
 int displacement_first_size(const strum_cable *cable, int count);

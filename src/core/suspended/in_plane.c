@@ -71,39 +71,45 @@ typedef struct rows {
     int count; /* rows; also the leading dimension */
 } rows;
 
+/* Roots of the weights at the points, NULL for a direction without weight. */
+typedef struct weights {
+    const double *t, *n;
+    bool isotropic; /* both alike */
+} weights;
+
 /* Column of component `component` with values v (NULL: constant 1): tangential rows, then
  * normal rows; a direction without weight has no rows. Isotropic weights are sampled along the
  * fixed axes instead, which leaves the components uncoupled exactly. */
-static void sample(const in_plane_frame *f, const double *root_t, const double *root_n,
-                   bool isotropic, int component, const double *v, double *column)
+static void sample(const in_plane_frame *f, const weights *root, int component, const double *v,
+                   double *column)
 {
     const int points = f->b->points;
     int row = 0;
-    if (root_t != NULL) {
+    if (root->t != NULL) {
         const double *d = component == 0 ? f->c : f->s;
         for (int i = 0; i < points; i++)
-            column[row++] = root_t[i] * (isotropic ? (component == 0) : d[i]) * (v ? v[i] : 1);
+            column[row++] =
+                root->t[i] * (root->isotropic ? (component == 0) : d[i]) * (v ? v[i] : 1);
     }
-    if (root_n != NULL) {
+    if (root->n != NULL) {
         const double *d = component == 0 ? f->s : f->c, sign = component == 0 ? -1 : 1;
         for (int i = 0; i < points; i++)
-            column[row++] =
-                root_n[i] * (isotropic ? (component == 1) : sign * d[i]) * (v ? v[i] : 1);
+            column[row++] = root->n[i] * (root->isotropic ? (component == 1) : sign * d[i]) *
+                            (v ? v[i] : 1);
     }
 }
 
 static strum_status sample_part(const in_plane_frame *f, const in_plane_part *part,
-                                const double *table, const double *root_t, const double *root_n,
-                                bool isotropic, arena *scratch, rows *out)
+                                const double *table, const weights *root, arena *scratch,
+                                rows *out)
 {
     const size_t points = (size_t)f->b->points;
-    out->count = (int)points * ((root_t != NULL) + (root_n != NULL));
+    out->count = (int)points * ((root->t != NULL) + (root->n != NULL));
     out->data = arena_room(scratch, (size_t)out->count * (size_t)part->count);
     if (out->data == NULL)
         return STRUM_ERR_MEMORY;
     for (int j = 0; j < part->count; j++)
-        sample(f, root_t, root_n, isotropic, part->component[j],
-               table + (size_t)part->index[j] * points,
+        sample(f, root, part->component[j], table + (size_t)part->index[j] * points,
                out->data + (size_t)j * (size_t)out->count);
     return STRUM_OK;
 }
@@ -133,9 +139,8 @@ static void invert_gram(const in_plane_part *part, double r[2][2], double invers
  * Least squares of the columns on the constants' samples: the columns keep their residual,
  * which makes A positive semidefinite as computed and keeps its digits on a taut cable.
  */
-static strum_status project(const in_plane_frame *f, const in_plane_part *part,
-                            const double *root_t, const double *root_n, rows *w,
-                            in_plane_constants *constants, arena *scratch)
+static strum_status project(const in_plane_frame *f, in_plane_part *part, const weights *root,
+                            rows *w, arena *scratch)
 {
     const int n = w->count, m = part->constant_count;
     double *q = arena_room(scratch, (size_t)n * 2);
@@ -144,7 +149,7 @@ static strum_status project(const in_plane_frame *f, const in_plane_part *part,
     double r[2][2] = {{0}};
     for (int k = 0; k < m; k++) {
         double *column = q + (size_t)k * (size_t)n;
-        sample(f, root_t, root_n, false, part->constants[k], NULL, column);
+        sample(f, root, part->constants[k], NULL, column);
         for (int pass = 0; pass < 2 && k == 1; pass++) { /* twice is enough */
             const double along = dot(n, q, column);
             r[0][1] += along;
@@ -155,8 +160,7 @@ static strum_status project(const in_plane_frame *f, const in_plane_part *part,
         for (int i = 0; i < n; i++)
             column[i] /= r[k][k];
     }
-    if (constants != NULL) /* (W_c'W_c)^-1 = R^-1 R^-T */
-        invert_gram(part, r, constants->from_motion);
+    invert_gram(part, r, part->rule.from_motion); /* (W_c'W_c)^-1 = R^-1 R^-T */
     for (int j = 0; j < part->count; j++) {
         double *column = w->data + (size_t)j * (size_t)n, y[2] = {0};
         for (int pass = 0; pass < 2; pass++)
@@ -167,9 +171,7 @@ static strum_status project(const in_plane_frame *f, const in_plane_part *part,
                 for (int i = 0; i < n; i++)
                     column[i] -= along * basis_k[i];
             }
-        if (constants == NULL)
-            continue;
-        double *c = constants->from_unknowns + 2 * (size_t)j;
+        double *c = part->rule.from_unknowns + 2 * (size_t)j;
         c[0] = c[1] = 0;
         if (m == 2)
             y[0] -= r[0][1] / r[1][1] * y[1];
@@ -180,13 +182,14 @@ static strum_status project(const in_plane_frame *f, const in_plane_part *part,
 }
 
 strum_status in_plane_compliance(const strum_cable *cable, const in_plane_frame *f,
-                                 const in_plane_part *part, in_plane_form form,
-                                 double *compliance, in_plane_constants *constants,
-                                 arena *scratch)
+                                 in_plane_form form, in_plane_part *part, arena *a)
 {
     const int points = f->b->points;
-    double *root_n = arena_room(scratch, 2 * (size_t)points);
-    if (root_n == NULL)
+    const size_t n = (size_t)part->count;
+    double *root_n = arena_room(a, 2 * (size_t)points);
+    part->compliance = arena_room(a, n * n);
+    part->rule.from_unknowns = arena_room(a, 2 * n);
+    if (root_n == NULL || part->compliance == NULL || part->rule.from_unknowns == NULL)
         return STRUM_ERR_MEMORY;
     double *root_t = cable->kappa_t > 0 ? root_n + points : NULL;
     for (int i = 0; i < points; i++) {
@@ -195,15 +198,16 @@ strum_status in_plane_compliance(const strum_cable *cable, const in_plane_frame 
         if (root_t != NULL)
             root_t[i] = sqrt(w * cable->kappa_t * cosh_chi);
     }
+    const weights root = {.t = root_t, .n = root_n};
     rows w;
-    arena samples = {.work = scratch->work};
+    arena samples = {.work = a->work};
     strum_status status = sample_part(f, part, form == IN_PLANE_FORCE_FORM ? f->b->q : f->b->p,
-                                      root_t, root_n, false, &samples, &w);
+                                      &root, &samples, &w);
     if (status == STRUM_OK)
-        status = project(f, part, root_t, root_n, &w, constants, scratch);
+        status = project(f, part, &root, &w, a);
     if (status == STRUM_OK)
-        status = linalg_gram(part->count, w.count, w.data, w.count, compliance, part->count,
-                             scratch->work);
+        status = linalg_gram(part->count, w.count, w.data, w.count, part->compliance,
+                             part->count, a->work);
     arena_free(&samples);
     return status;
 }
@@ -229,10 +233,10 @@ static strum_status weighted(double weight_t, double weight_n, int power,
         root[i] = sqrt(w * weight_t);
         root[i + points] = sqrt(w * weight_n);
     }
+    const weights both = {.t = root_t, .n = root_n, .isotropic = weight_t == weight_n};
     rows w;
     arena samples = {.work = scratch->work};
-    strum_status status =
-        sample_part(f, part, table, root_t, root_n, weight_t == weight_n, &samples, &w);
+    strum_status status = sample_part(f, part, table, &both, &samples, &w);
     if (status == STRUM_OK)
         status = linalg_gram(part->count, w.count, w.data, w.count, matrix, part->count,
                              scratch->work);

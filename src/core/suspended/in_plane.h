@@ -27,6 +27,14 @@
 
 typedef enum in_plane_form { IN_PLANE_FORCE_FORM, IN_PLANE_CLAMPED_FORM } in_plane_form;
 
+/* How the constants follow: c = from_unknowns f + from_motion d, d the displacement (in the
+ * middle tangent frame) of end 2; 2 x count and 2 x 2, zero for a component without a constant.
+ */
+typedef struct in_plane_rule {
+    double *from_unknowns;
+    double from_motion[2][2];
+} in_plane_rule;
+
 /* The unknowns of one symmetry class (or of all, for a cable that is not level), ordered by
  * degree so that a leading block is a smaller discretisation. Components: 0 along the middle
  * tangent, 1 along its normal. */
@@ -36,6 +44,8 @@ typedef struct in_plane_part {
     int *component, *index; /* of each unknown: component and k */
     int constants[2];       /* components that have a constant */
     int constant_count;
+    double *compliance; /* A = W'W (count x count) */
+    in_plane_rule rule;
 } in_plane_part;
 
 strum_status in_plane_part_make(strum_symmetry symmetry, in_plane_form form, int size, arena *a,
@@ -53,19 +63,9 @@ strum_status in_plane_frame_make(const mapping *along, const legendre *b, arena 
 /* The same at one point. */
 void in_plane_frame_at(const mapping *along, double x, double *cosh_chi, double *c, double *s);
 
-/* How the constants follow: c = from_unknowns f + from_motion d, d the displacement (in the
- * middle tangent frame) of end 2; 2 x count and 2 x 2, zero for a component without a constant.
- */
-typedef struct in_plane_constants {
-    double *from_unknowns;
-    double from_motion[2][2];
-} in_plane_constants;
-
-/* A = W'W (count x count). `constants` may be NULL, or has room. */
+/* The part's compliance and rule. */
 strum_status in_plane_compliance(const strum_cable *cable, const in_plane_frame *frame,
-                                 const in_plane_part *part, in_plane_form form,
-                                 double *compliance, in_plane_constants *constants,
-                                 arena *scratch);
+                                 in_plane_form form, in_plane_part *part, arena *a);
 
 /* INT b'_i . (tt' weight_t + nn' weight_n) b'_j cosh(chi) dchi (count x count). */
 strum_status in_plane_inertia(double weight_t, double weight_n, const in_plane_frame *frame,

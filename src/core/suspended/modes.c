@@ -9,15 +9,12 @@
 #include "core/numerics/work.h"
 #include "core/suspended/displacement.h"
 
-strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_plane plane,
-                            in_plane_form form, int size, int block, int want, bool vectors,
-                            arena *a, root_list *list, root_list *inner,
+strum_status spectrum_roots(const root_search *q, arena *a, root_list *list, root_list *inner,
                             in_plane_part *parts[3])
 {
-    if (plane == STRUM_OUT_OF_PLANE)
-        return out_of_plane_roots(cable, x, form == IN_PLANE_CLAMPED_FORM, size, block, want,
-                                  vectors, a, list, inner);
-    const bool level = cable->chi_m == 0;
+    if (q->plane == STRUM_OUT_OF_PLANE)
+        return out_of_plane_roots(q, a, list, inner);
+    const bool level = q->cable->chi_m == 0;
     const strum_symmetry first = level ? STRUM_SYMMETRIC : STRUM_NO_SYMMETRY;
     const strum_symmetry last = level ? STRUM_ANTISYMMETRIC : STRUM_NO_SYMMETRY;
     for (strum_symmetry symmetry = first; symmetry <= last; symmetry++) {
@@ -25,11 +22,11 @@ strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_pl
         if (m == NULL)
             return STRUM_ERR_MEMORY;
         arena scratch = {.work = a->work};
-        strum_status status = in_plane_assemble(cable, x, symmetry, form, size, a, &scratch, m);
+        strum_status status = in_plane_assemble(q, symmetry, a, &scratch, m);
         if (status == STRUM_OK)
-            status = in_plane_roots(cable, m, form, size, want, vectors, a, list);
+            status = in_plane_roots(q, m, q->size, q->vectors, a, list);
         if (status == STRUM_OK && inner != NULL)
-            status = in_plane_roots(cable, m, form, block, want, false, a, inner);
+            status = in_plane_roots(q, m, q->block, false, a, inner);
         arena_free(&scratch);
         if (status != STRUM_OK)
             return status;
@@ -60,27 +57,34 @@ static double largest_rate(const strum_cable *cable, strum_plane plane)
     return plane == STRUM_OUT_OF_PLANE ? normal : fmax(normal, cable->eta_t / cable->mass_t);
 }
 
-strum_status spectrum_sort(const strum_cable *cable, strum_plane plane, const root_list *list,
-                           int count, arena *a, root_list *modes, double **decays,
-                           int *overdamped)
+/* Roots that oscillate, by frequency, and the decay rates of those that do not, ascending. */
+typedef struct sorted_roots {
+    root_list modes;
+    double *decays;
+    int overdamped;
+} sorted_roots;
+
+/* Sorts `list`, of which at most `count` oscillating roots are kept; arrays are the arena's.
+ * Roots beyond what damping can reach are rounding and left out. */
+static strum_status sort_roots(const strum_modes *sp, const root_list *list, int count,
+                               arena *a, sorted_roots *out)
 {
     const size_t room = (size_t)(list->count > 0 ? list->count : 1);
-    modes->items = arena_alloc(a, room, sizeof *modes->items);
-    modes->count = 0;
-    *decays = arena_doubles(a, room);
-    *overdamped = 0;
-    if (modes->items == NULL || *decays == NULL)
+    root_list *modes = &out->modes;
+    *out = (sorted_roots){.modes.items = arena_alloc(a, room, sizeof *modes->items),
+                          .decays = arena_doubles(a, room)};
+    if (modes->items == NULL || out->decays == NULL)
         return STRUM_ERR_MEMORY;
-    const double limit = largest_rate(cable, plane) * (1 + 1e-9);
+    const double limit = largest_rate(&sp->cable, sp->plane) * (1 + 1e-9);
     for (int i = 0; i < list->count; i++) {
         const double _Complex s = list->items[i].s;
         if (cimag(s) > 0)
             modes->items[modes->count++] = list->items[i];
         else if (-creal(s) > 0 && -creal(s) <= limit)
-            (*decays)[(*overdamped)++] = -creal(s);
+            out->decays[out->overdamped++] = -creal(s);
     }
     qsort(modes->items, (size_t)modes->count, sizeof *modes->items, by_frequency);
-    qsort(*decays, (size_t)*overdamped, sizeof **decays, by_value);
+    qsort(out->decays, (size_t)out->overdamped, sizeof *out->decays, by_value);
     if (modes->count > count)
         modes->count = count;
     return STRUM_OK;
@@ -160,19 +164,18 @@ mapping spectrum_mapping(const strum_cable *cable, strum_plane plane, int count,
     return steeper;
 }
 
-/* Largest relative difference of each root of `list` to the nearest of `other`. */
-static double disagreement(const root_list *list, const double *decays, int overdamped,
-                           const root_list *other, const double *other_decays,
-                           int other_overdamped)
+/* Largest relative difference of each root to the nearest of `other`. */
+static double disagreement(const sorted_roots *of, const sorted_roots *other)
 {
+    const root_list *list = &of->modes;
     double worst = 0;
-    if (other->count < list->count || other_overdamped != overdamped)
+    if (other->modes.count < list->count || other->overdamped != of->overdamped)
         return INFINITY;
     for (int i = 0; i < list->count; i++) {
         const root *r = &list->items[i];
         double nearest = INFINITY;
-        for (int j = 0; j < other->count; j++) {
-            const root *o = &other->items[j];
+        for (int j = 0; j < other->modes.count; j++) {
+            const root *o = &other->modes.items[j];
             if (o->symmetry == r->symmetry)
                 nearest =
                     fmin(nearest, r->natural > 0 ? fabs(o->natural - r->natural) / r->natural
@@ -182,8 +185,9 @@ static double disagreement(const root_list *list, const double *decays, int over
     }
     /* a proportional pair is as good as its natural frequency, which may sit beside critical
      * damping */
-    for (int i = 0; i < overdamped && (list->count == 0 || list->items[0].natural == 0); i++)
-        worst = fmax(worst, fabs(decays[i] - other_decays[i]) / decays[i]);
+    for (int i = 0; i < of->overdamped && (list->count == 0 || list->items[0].natural == 0);
+         i++)
+        worst = fmax(worst, fabs(of->decays[i] - other->decays[i]) / of->decays[i]);
     return worst;
 }
 
@@ -238,37 +242,37 @@ static double shape_tail(const strum_modes *sp)
  */
 #define SHAPE_TAIL_MAX 1e-11
 
-/* One try at one size; STRUM_ERR_ACCURACY when the two sizes differ or shapes are cut off:
- * `*excess` is how many times too much. */
-static strum_status attempt(strum_modes *sp, int size, int block, int want, int count,
-                            double tolerance, double *excess)
+/* Of frequencies. */
+static double tolerance_of(const strum_modes *sp)
+{
+    return sp->cable.eta_t > 0 || sp->cable.eta_n > 0 ? 1e-10 : 1e-12;
+}
+
+/* One try at one size, of `count` modes; STRUM_ERR_ACCURACY when the two sizes differ or shapes
+ * are cut off: `*excess` is how many times too much. */
+static strum_status attempt(strum_modes *sp, const root_search *q, int count, double *excess)
 {
     arena *a = &sp->memory;
-    root_list all = {0}, inner = {0}, modes, inner_modes;
-    double *inner_decays;
-    int inner_overdamped;
-    strum_status status =
-        by_displacement(&sp->cable, sp->plane, sp->shapes)
-            ? displacement_roots(&sp->cable, sp->cable.chi_m == 0, size, block, want, a, &all,
-                                 &inner)
-            : spectrum_roots(&sp->cable, &sp->coordinate, sp->plane, IN_PLANE_FORCE_FORM, size,
-                             block, want, sp->shapes, a, &all, &inner, sp->parts);
+    root_list all = {0}, inner = {0};
+    sorted_roots found, checked;
+    strum_status status = by_displacement(&sp->cable, sp->plane, sp->shapes)
+                              ? displacement_roots(q, sp->cable.chi_m == 0, a, &all, &inner)
+                              : spectrum_roots(q, a, &all, &inner, sp->parts);
     if (status == STRUM_OK)
-        status = spectrum_sort(&sp->cable, sp->plane, &all, count, a, &modes, &sp->decays,
-                               &sp->overdamped);
+        status = sort_roots(sp, &all, count, a, &found);
     if (status == STRUM_OK)
-        status = spectrum_sort(&sp->cable, sp->plane, &inner, inner.count, a, &inner_modes,
-                               &inner_decays, &inner_overdamped);
+        status = sort_roots(sp, &inner, inner.count, a, &checked);
     if (status != STRUM_OK)
         return status;
-    sp->difference = disagreement(&modes, sp->decays, sp->overdamped, &inner_modes,
-                                  inner_decays, inner_overdamped);
-    sp->size = size;
-    sp->count = modes.count;
-    sp->roots = modes.items;
+    sp->difference = disagreement(&found, &checked);
+    sp->size = q->size;
+    sp->count = found.modes.count;
+    sp->roots = found.modes.items;
+    sp->decays = found.decays;
+    sp->overdamped = found.overdamped;
     sp->tail = sp->shapes ? shape_tail(sp) : 0;
-    *excess = fmax(sp->difference / tolerance, sp->tail / SHAPE_TAIL_MAX);
-    return modes.count == count && *excess <= 1 ? STRUM_OK : STRUM_ERR_ACCURACY;
+    *excess = fmax(sp->difference / tolerance_of(sp), sp->tail / SHAPE_TAIL_MAX);
+    return sp->count == count && *excess <= 1 ? STRUM_OK : STRUM_ERR_ACCURACY;
 }
 
 static strum_status number_modes(strum_modes *sp)
@@ -289,6 +293,50 @@ static strum_status number_modes(strum_modes *sp)
     return spectrum_normalise(sp);
 }
 
+/* Why no size of a search up to `largest` serves, the next being `next`. */
+static strum_status unsolved(const strum_modes *sp, int want, double next, int largest,
+                             strum_error *fault)
+{
+    if (sp->size == 0)
+        return error_set(
+            fault, STRUM_ERR_ACCURACY,
+            "%d modes of this cable need about %.0f unknowns a component; %d can be "
+            "solved",
+            want, next, largest);
+    if (sp->difference <= tolerance_of(sp) && sp->tail > 100 * SHAPE_TAIL_MAX)
+        return error_set(fault, STRUM_ERR_ACCURACY,
+                         "the last terms of the mode shapes are still %.1e of the first (%.0e "
+                         "is promised) at %d unknowns a component; frequencies alone can be "
+                         "answered",
+                         sp->tail, 100 * SHAPE_TAIL_MAX, sp->size);
+    return error_set(
+        fault, STRUM_ERR_ACCURACY,
+        "two sizes still differ by %.1e (%.0e is promised) at %d unknowns a component",
+        sp->difference, tolerance_of(sp), sp->size);
+}
+
+/* Functions more than `inner`: what converges slowly needs more of a difference between the two
+ * sizes. */
+static int margin(const strum_modes *sp, int inner)
+{
+    if (by_displacement(&sp->cable, sp->plane, sp->shapes))
+        return displacement_margin(&sp->cable, inner);
+    if (sp->coordinate.stretch != 0)
+        return inner / 4;
+    return inner > 40 ? inner / 10 : 4;
+}
+
+/* Chooses the coordinate; returns the size to begin with. Shapes converge at half the rate of
+ * frequencies. */
+static double choose(strum_modes *sp, int want)
+{
+    if (by_displacement(&sp->cable, sp->plane, sp->shapes))
+        return displacement_first_size(&sp->cable, want);
+    int first;
+    sp->coordinate = spectrum_mapping(&sp->cable, sp->plane, want, &first);
+    return first * (sp->shapes ? 1.35 : 1);
+}
+
 /* Grows the size until two agree. */
 static strum_status solve(strum_modes *sp, int count, strum_error *fault)
 {
@@ -300,35 +348,26 @@ static strum_status solve(strum_modes *sp, int count, strum_error *fault)
             "about %.6g modes would be overdamped, more than %d: less damping can be "
             "answered",
             lost, 2 * STRUM_MODES_MAX);
-    const int want = count + (int)lost;
-    const bool damped = sp->cable.eta_t > 0 || sp->cable.eta_n > 0;
-    const double tolerance = damped ? 1e-10 : 1e-12;
-    const int most = sp->plane == STRUM_OUT_OF_PLANE || in_plane_proportional(&sp->cable)
-                         ? SPECTRUM_SIZE_MAX
-                         : SPECTRUM_SIZE_MAX_QUADRATIC;
-    const bool slim = by_displacement(&sp->cable, sp->plane, sp->shapes);
-    int first;
-    if (slim)
-        first = displacement_first_size(&sp->cable, want);
-    else
-        sp->coordinate = spectrum_mapping(&sp->cable, sp->plane, want, &first);
-    /* what converges slowly needs more of a difference between the two sizes */
-    const bool steep = sp->coordinate.stretch != 0;
-    /* shapes converge at half the rate of frequencies */
-    double block = first * (sp->shapes ? 1.35 : 1);
-    double before = INFINITY, excess = INFINITY;
-    while (block < most) {
-        const int inner = (int)block;
-        const int size = inner + (slim         ? displacement_margin(&sp->cable, inner)
-                                  : steep      ? inner / 4
-                                  : inner > 40 ? inner / 10
-                                               : 4);
-        const strum_status status = attempt(sp, size, inner, want, count, tolerance, &excess);
+    const int largest = sp->plane == STRUM_OUT_OF_PLANE || in_plane_proportional(&sp->cable)
+                            ? SPECTRUM_SIZE_MAX
+                            : SPECTRUM_SIZE_MAX_QUADRATIC;
+    root_search q = {.cable = &sp->cable,
+                     .x = &sp->coordinate,
+                     .plane = sp->plane,
+                     .form = IN_PLANE_FORCE_FORM,
+                     .want = count + (int)lost,
+                     .vectors = sp->shapes};
+    double block = choose(sp, q.want), before = INFINITY, excess = INFINITY;
+    while (block < largest) {
+        q.block = (int)block;
+        q.size = q.block + margin(sp, q.block);
+        const strum_status status = attempt(sp, &q, count, &excess);
         block = 1.3 * block + 6;
         /* rounding, not size, stands in the way once a larger size helps no more */
         const bool stalled = sp->difference < 1e-8 && excess > before / 3;
-        const bool passable = (stalled || block >= most) && sp->count == count &&
-                              sp->difference <= tolerance && sp->tail < 100 * SHAPE_TAIL_MAX;
+        const bool passable = (stalled || block >= largest) && sp->count == count &&
+                              sp->difference <= tolerance_of(sp) &&
+                              sp->tail < 100 * SHAPE_TAIL_MAX;
         if (status == STRUM_OK || (status == STRUM_ERR_ACCURACY && passable))
             return work_result(sp->memory.work, number_modes(sp), fault);
         if (status != STRUM_ERR_ACCURACY)
@@ -338,22 +377,7 @@ static strum_status solve(strum_modes *sp, int count, strum_error *fault)
             break;
         before = excess;
     }
-    if (sp->size == 0)
-        return error_set(
-            fault, STRUM_ERR_ACCURACY,
-            "%d modes of this cable need about %.0f unknowns a component; %d can be "
-            "solved",
-            want, block, most);
-    if (sp->difference <= tolerance && sp->tail > 100 * SHAPE_TAIL_MAX)
-        return error_set(fault, STRUM_ERR_ACCURACY,
-                         "the last terms of the mode shapes are still %.1e of the first (%.0e "
-                         "is promised) at %d unknowns a component; frequencies alone can be "
-                         "answered",
-                         sp->tail, 100 * SHAPE_TAIL_MAX, sp->size);
-    return error_set(
-        fault, STRUM_ERR_ACCURACY,
-        "two sizes still differ by %.1e (%.0e is promised) at %d unknowns a component",
-        sp->difference, tolerance, sp->size);
+    return unsolved(sp, q.want, block, largest, fault);
 }
 
 /* The modes by `params`, their work counted by `w`. */

@@ -35,11 +35,9 @@ struct strum_modes {
 /* STRUM_ERR_RANGE with the reason where a property of the cable is out of its range. */
 strum_status spectrum_check_cable(const strum_cable *cable, strum_error *fault);
 
-/* All roots of a cable at one size, and of its leading block `block` where `inner` is not NULL.
- * `want`: roots of each symmetry class. Memory is the arena's. */
-strum_status spectrum_roots(const strum_cable *cable, const mapping *x, strum_plane plane,
-                            in_plane_form form, int size, int block, int want, bool vectors,
-                            arena *a, root_list *list, root_list *inner,
+/* All roots of a search, and of its leading block where `inner` is not NULL. Memory is the
+ * arena's. */
+strum_status spectrum_roots(const root_search *q, arena *a, root_list *list, root_list *inner,
                             in_plane_part *parts[3]);
 
 /* strum_modes_solve in plane, for a caller that makes shapes of the vectors by itself: what
@@ -50,13 +48,6 @@ strum_status spectrum_unscaled(const strum_cable *cable, int count, work *w,
 /* strum_modes_below within a solve. */
 strum_status modes_count_below(const strum_cable *cable, double frequency, work *w, int *count,
                                strum_error *error);
-
-/* Splits `list` into roots that oscillate (ascending frequency, at most `count`) and decay
- * rates (ascending); arrays are the arena's. Roots beyond what damping can reach are rounding
- * and left out. */
-strum_status spectrum_sort(const strum_cable *cable, strum_plane plane, const root_list *list,
-                           int count, arena *a, root_list *modes, double **decays,
-                           int *overdamped);
 
 /* Number of modes to expect below `frequency` from the phase of a travelling wave; an estimate
  * for sizes. */

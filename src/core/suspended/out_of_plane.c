@@ -52,12 +52,12 @@ typedef struct class_problem {
 
 /* Roots of the first `n` unknowns. The matrices are graded: no vectors are needed to mend
  * values. */
-static strum_status class_roots(const strum_cable *cable, const class_problem *c, int n,
-                                int want, bool vectors, arena *a, arena *scratch,
-                                root_list *list)
+static strum_status class_roots(const root_search *q, const class_problem *c, int n,
+                                bool vectors, arena *a, arena *scratch, root_list *list)
 {
+    const strum_cable *cable = q->cable;
     const size_t count = (size_t)n;
-    want = want < n ? want : n;
+    const int want = q->want < n ? q->want : n;
     double *mu = arena_doubles(scratch, count);
     double *v = vectors ? arena_doubles(scratch, count * (size_t)want) : NULL;
     if (mu == NULL || (vectors && v == NULL))
@@ -82,32 +82,38 @@ static strum_status class_roots(const strum_cable *cable, const class_problem *c
     return status;
 }
 
-/* Weights at the nodes: of the unknowns' values and of their slopes. */
-static strum_status weigh(const strum_cable *cable, const mapping *x, bool force_form,
-                          const legendre *b, arena *a, double **value, double **slope)
+/* The form, and its weights at the nodes: of the unknowns' values and of their slopes. */
+typedef struct weights {
+    bool force_form;
+    bool identity; /* the slopes' matrix is a multiple of it */
+    double *value, *slope;
+} weights;
+
+static strum_status weigh(const strum_cable *cable, const mapping *x, const legendre *b,
+                          arena *a, weights *w)
 {
     const size_t points = (size_t)b->points;
-    *value = arena_room(a, 2 * points);
-    if (*value == NULL)
+    w->value = arena_room(a, 2 * points);
+    if (w->value == NULL)
         return STRUM_ERR_MEMORY;
-    *slope = *value + points;
+    w->slope = w->value + points;
     for (size_t i = 0; i < points; i++) {
         const double c = cosh(cable->chi_m + mapping_offset(x, b->x[i]));
         const double e = 1 + cable->kappa_n * c, stretch = mapping_slope(x, b->x[i]);
-        (*value)[i] = sqrt(b->w[i] * stretch * cable->mu * (force_form ? e : c));
-        (*slope)[i] = sqrt(b->w[i] / stretch * cable->mu / (force_form ? c : e));
+        w->value[i] = sqrt(b->w[i] * stretch * cable->mu * (w->force_form ? e : c));
+        w->slope[i] = sqrt(b->w[i] / stretch * cable->mu / (w->force_form ? c : e));
     }
     return STRUM_OK;
 }
 
-static strum_status class_make(const legendre *b, const double *value, const double *slope,
-                               bool force_form, bool identity, arena *a, class_problem *c)
+static strum_status class_make(const legendre *b, const weights *by, arena *a, class_problem *c)
 {
+    const bool identity = by->identity;
     c->size = b->count;
     c->index = arena_alloc(a, (size_t)c->size, sizeof *c->index);
     if (c->index == NULL)
         return STRUM_ERR_MEMORY;
-    c->count = choose(c->symmetry, force_form, c->size, c->index);
+    c->count = choose(c->symmetry, by->force_form, c->size, c->index);
     const size_t points = (size_t)b->points, count = (size_t)c->count;
     double *w = arena_room(a, points * count);
     c->a = arena_room(a, (identity ? 1 : 2) * count * count);
@@ -116,10 +122,10 @@ static strum_status class_make(const legendre *b, const double *value, const dou
     for (size_t j = 0; j < count; j++) {
         const double *q = b->q + (size_t)c->index[j] * points;
         for (size_t i = 0; i < points; i++)
-            w[i + j * points] = value[i] * q[i];
+            w[i + j * points] = by->value[i] * q[i];
         /* the constant is even: it only meets the even force of antisymmetric motion */
-        if (force_form && c->symmetry != STRUM_SYMMETRIC)
-            remove_constant(b->points, value, w + j * points);
+        if (by->force_form && c->symmetry != STRUM_SYMMETRIC)
+            remove_constant(b->points, by->value, w + j * points);
     }
     strum_status status =
         linalg_gram(c->count, b->points, w, b->points, c->a, c->count, a->work);
@@ -127,38 +133,39 @@ static strum_status class_make(const legendre *b, const double *value, const dou
     for (size_t j = 0; j < count && !identity && status == STRUM_OK; j++) {
         const double *p = b->p + (size_t)c->index[j] * points;
         for (size_t i = 0; i < points; i++)
-            w[i + j * points] = slope[i] * p[i];
+            w[i + j * points] = by->slope[i] * p[i];
     }
     if (!identity && status == STRUM_OK)
         status = linalg_gram(c->count, b->points, w, b->points, c->k, c->count, a->work);
     return status;
 }
 
-strum_status out_of_plane_roots(const strum_cable *cable, const mapping *x, bool force_form,
-                                int size, int block, int want, bool vectors, arena *a,
-                                root_list *list, root_list *inner)
+strum_status out_of_plane_roots(const root_search *q, arena *a, root_list *list,
+                                root_list *inner)
 {
+    const strum_cable *cable = q->cable;
+    const mapping *x = q->x;
     const bool level = cable->chi_m == 0;
-    const bool identity = !force_form && cable->kappa_n == 0 && x->stretch == 0;
+    weights by = {.force_form = q->form == IN_PLANE_CLAMPED_FORM};
+    by.identity = !by.force_form && cable->kappa_n == 0 && x->stretch == 0;
     legendre b;
-    double *value, *slope;
     arena functions = {.work = a->work};
-    strum_status status = legendre_make(size, mapping_singularity(x), level, &functions, &b);
+    strum_status status = legendre_make(q->size, mapping_singularity(x), level, &functions, &b);
     if (status == STRUM_OK)
-        status = weigh(cable, x, force_form, &b, &functions, &value, &slope);
+        status = weigh(cable, x, &b, &functions, &by);
     const strum_symmetry first = level ? STRUM_SYMMETRIC : STRUM_NO_SYMMETRY;
     const strum_symmetry last = level ? STRUM_ANTISYMMETRIC : STRUM_NO_SYMMETRY;
     for (strum_symmetry symmetry = first; status == STRUM_OK && symmetry <= last; symmetry++) {
         class_problem c = {.symmetry = symmetry};
         arena scratch = {.work = a->work};
-        status = class_make(&b, value, slope, force_form, identity, &scratch, &c);
+        status = class_make(&b, &by, &scratch, &c);
         if (status == STRUM_OK)
-            status = class_roots(cable, &c, c.count, want, vectors, a, &scratch, list);
+            status = class_roots(q, &c, c.count, q->vectors, a, &scratch, list);
         int n = 0;
-        while (status == STRUM_OK && n < c.count && c.index[n] < block)
+        while (status == STRUM_OK && n < c.count && c.index[n] < q->block)
             n++;
         if (status == STRUM_OK && inner != NULL)
-            status = class_roots(cable, &c, n, want, false, a, &scratch, inner);
+            status = class_roots(q, &c, n, false, a, &scratch, inner);
         arena_free(&scratch);
     }
     arena_free(&functions);

@@ -39,50 +39,55 @@ strum_status root_list_grow(root_list *list, int more, arena *a)
     return STRUM_OK;
 }
 
-/* in_plane_assemble once the part is made; `functions` may be freed afterwards. */
-static strum_status assemble(const strum_cable *cable, const mapping *x, in_plane_form form,
-                             int size, arena *functions, arena *a, in_plane_assembly *out)
+strum_status in_plane_begin(const root_search *q, strum_symmetry symmetry, arena *functions,
+                            arena *a, arena *scratch, legendre *basis, in_plane_frame *frame,
+                            in_plane_part *part)
 {
-    legendre b;
-    in_plane_frame frame;
-    strum_status status = legendre_make(size, mapping_singularity(x),
-                                        out->part.symmetry != STRUM_NO_SYMMETRY, functions, &b);
+    strum_status status = legendre_make(q->size, mapping_singularity(q->x),
+                                        symmetry != STRUM_NO_SYMMETRY, functions, basis);
     if (status == STRUM_OK)
-        status = in_plane_frame_make(x, &b, functions, &frame);
+        status = in_plane_frame_make(q->x, basis, functions, frame);
+    if (status == STRUM_OK)
+        status = in_plane_part_make(symmetry, q->form, q->size, a, part);
+    return status == STRUM_OK ? in_plane_compliance(q->cable, frame, q->form, part, scratch)
+                              : status;
+}
+
+/* in_plane_assemble; `functions` may be freed afterwards. */
+static strum_status assemble(const root_search *q, strum_symmetry symmetry, arena *functions,
+                             arena *a, arena *scratch, in_plane_assembly *out)
+{
+    legendre basis;
+    in_plane_frame frame;
+    const strum_cable *cable = q->cable;
+    strum_status status =
+        in_plane_begin(q, symmetry, functions, a, scratch, &basis, &frame, &out->part);
     if (status != STRUM_OK)
         return status;
     const size_t n = (size_t)out->part.count;
-    const bool symmetric = form == IN_PLANE_FORCE_FORM && in_plane_proportional(cable);
-    out->compliance = arena_room(a, n * n);
-    out->constants.from_unknowns = arena_doubles(a, 2 * n);
-    out->complementary = symmetric ? arena_room(a, n * n) : NULL;
-    out->mass = symmetric ? NULL : arena_room(a, n * n);
-    out->damping = symmetric ? NULL : arena_room(a, n * n);
-    if (out->compliance == NULL || out->constants.from_unknowns == NULL ||
-        (symmetric ? out->complementary == NULL : out->mass == NULL || out->damping == NULL))
+    if (q->form == IN_PLANE_FORCE_FORM && in_plane_proportional(cable)) {
+        out->complementary = arena_room(scratch, n * n);
+        return out->complementary == NULL
+                   ? STRUM_ERR_MEMORY
+                   : in_plane_complementary(1 / cable->mass_t, 1 / cable->mass_n, &frame,
+                                            &out->part, out->complementary, scratch);
+    }
+    out->mass = arena_room(scratch, n * n);
+    out->damping = arena_room(scratch, n * n);
+    if (out->mass == NULL || out->damping == NULL)
         return STRUM_ERR_MEMORY;
-    status = in_plane_compliance(cable, &frame, &out->part, form, out->compliance,
-                                 &out->constants, a);
-    if (status == STRUM_OK && symmetric)
-        return in_plane_complementary(1 / cable->mass_t, 1 / cable->mass_n, &frame, &out->part,
-                                      out->complementary, a);
-    if (status == STRUM_OK)
-        status = in_plane_inertia(cable->mass_t, cable->mass_n, &frame, &out->part, form,
-                                  out->mass, a);
-    if (status == STRUM_OK)
-        status = in_plane_inertia(cable->eta_t, cable->eta_n, &frame, &out->part, form,
-                                  out->damping, a);
-    return status;
+    status = in_plane_inertia(cable->mass_t, cable->mass_n, &frame, &out->part, q->form,
+                              out->mass, scratch);
+    return status == STRUM_OK ? in_plane_inertia(cable->eta_t, cable->eta_n, &frame, &out->part,
+                                                 q->form, out->damping, scratch)
+                              : status;
 }
 
-strum_status in_plane_assemble(const strum_cable *cable, const mapping *x,
-                               strum_symmetry symmetry, in_plane_form form, int size, arena *a,
+strum_status in_plane_assemble(const root_search *q, strum_symmetry symmetry, arena *a,
                                arena *scratch, in_plane_assembly *out)
 {
     arena functions = {.work = a->work};
-    strum_status status = in_plane_part_make(symmetry, form, size, a, &out->part);
-    if (status == STRUM_OK)
-        status = assemble(cable, x, form, size, &functions, scratch, out);
+    const strum_status status = assemble(q, symmetry, &functions, a, scratch, out);
     arena_free(&functions);
     return status;
 }
@@ -92,7 +97,7 @@ static void constants_of(const in_plane_assembly *m, root *r)
     r->constant[0] = r->constant[1] = 0;
     for (int j = 0; j < r->length; j++)
         for (int k = 0; k < 2; k++)
-            r->constant[k] += m->constants.from_unknowns[2 * j + k] * r->vector[j];
+            r->constant[k] += m->part.rule.from_unknowns[2 * j + k] * r->vector[j];
 }
 
 /* Appends symmetric eigenpairs mu = 1/w^2. */
@@ -119,25 +124,23 @@ static strum_status append_symmetric(double rate, int n, int want, const double 
 }
 
 /* Complementary form, undamped or proportionally damped: A f = (1/w^2) K f. */
-static strum_status complementary_roots(const strum_cable *cable, const in_plane_assembly *m,
-                                        int n, int want, bool vectors, arena *a, arena *scratch,
-                                        root_list *list)
+static strum_status complementary_roots(const root_search *q, const in_plane_assembly *m, int n,
+                                        bool vectors, arena *a, arena *scratch, root_list *list)
 {
-    const int full = m->part.count;
-    want = want < n ? want : n;
+    const int full = m->part.count, want = q->want < n ? q->want : n;
     const bool need = vectors || want > LINALG_POLISH_FROM;
     double *mu = arena_doubles(scratch, (size_t)n);
     double *v = need ? arena_doubles(scratch, (size_t)n * (size_t)want) : NULL;
     if (mu == NULL || (need && v == NULL))
         return STRUM_ERR_MEMORY;
-    strum_status status =
-        linalg_symmetric(n, m->compliance, full, m->complementary, full, want, mu, v, a->work);
+    strum_status status = linalg_symmetric(n, m->part.compliance, full, m->complementary, full,
+                                           want, mu, v, a->work);
     if (status != STRUM_OK)
         return status;
     const root model = {.symmetry = m->part.symmetry};
     const int before = list->count;
-    status = append_symmetric(cable->eta_t / cable->mass_t, n, want, mu, vectors ? v : NULL,
-                              &model, a, list);
+    status = append_symmetric(q->cable->eta_t / q->cable->mass_t, n, want, mu,
+                              vectors ? v : NULL, &model, a, list);
     for (int i = before; status == STRUM_OK && vectors && i < list->count; i++)
         constants_of(m, &list->items[i]);
     return status;
@@ -165,39 +168,69 @@ static double _Complex polish_root(int n, const double *c, const double *m,
     return cabs(step) < 1e-4 * cabs(z) ? z - step : z;
 }
 
-/* `polish`: vectors are worth their time only at the full size, whose values are the answer.
- *
- * Mixed form: with A = LL' and g = L'f, z = 1/s solves z^2 g + z L'DL g + L'ML g = 0. */
+/* Mixed form: with A = LL' of the leading block and g = L'f, z = 1/s solves
+ * z^2 g + z L'DL g + L'ML g = 0. */
+typedef struct reduced {
+    int n, rank;
+    double *l, *half;
+} reduced;
+
+static strum_status reduce(const in_plane_assembly *m, int n, arena *a, reduced *d)
+{
+    const size_t size = (size_t)n * (size_t)n;
+    d->n = n;
+    d->l = arena_room(a, size);
+    d->half = arena_room(a, size);
+    if (d->l == NULL || d->half == NULL)
+        return STRUM_ERR_MEMORY;
+    return linalg_semidefinite_root(n, m->part.compliance, m->part.count, d->l, &d->rank,
+                                    a->work);
+}
+
+/* x = -L g, f = (s^2 M + s D) x, and the constants. */
+static strum_status give_vector(const in_plane_assembly *m, const reduced *d,
+                                const double _Complex *g, arena *a, root *found)
+{
+    const size_t size = (size_t)d->n, rank = (size_t)d->rank, full = (size_t)m->part.count;
+    double _Complex *x = arena_alloc(a, 2 * size, sizeof *x);
+    if (x == NULL)
+        return STRUM_ERR_MEMORY;
+    double _Complex *f = x + size;
+    for (size_t i = 0; i < rank; i++)
+        for (size_t j = 0; j < size; j++)
+            x[j] -= d->l[j + i * size] * g[i];
+    for (size_t i = 0; i < size; i++)
+        for (size_t j = 0; j < size; j++)
+            f[j] += (found->s * found->s * m->mass[j + i * full] +
+                     found->s * m->damping[j + i * full]) *
+                    x[i];
+    found->vector = f;
+    found->length = d->n;
+    constants_of(m, found);
+    return STRUM_OK;
+}
+
+/* `polish`: vectors are worth their time only at the full size, whose values are the answer. */
 static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vectors,
                                     bool polish, arena *a, arena *scratch, root_list *list)
 {
-    const int full = m->part.count;
-    const size_t size = (size_t)n;
-    double *block = arena_doubles(scratch, size * size);
-    double *l = arena_doubles(scratch, size * size),
-           *half = arena_doubles(scratch, size * size);
-    if (block == NULL || l == NULL || half == NULL)
-        return STRUM_ERR_MEMORY;
-    for (size_t j = 0; j < size; j++)
-        memcpy(block + j * size, m->compliance + j * (size_t)full, size * sizeof *block);
-    int r;
-    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a->work);
+    reduced d;
+    strum_status status = reduce(m, n, scratch, &d);
     if (status != STRUM_OK)
         return status;
-    const size_t rank = (size_t)r;
-    double *c = arena_doubles(scratch, rank * rank),
-           *mass = arena_doubles(scratch, rank * rank);
+    const size_t rank = (size_t)d.rank;
+    double *c = arena_room(scratch, rank * rank), *mass = arena_room(scratch, rank * rank);
     double _Complex *z = arena_alloc(scratch, 2 * rank, sizeof *z);
     double _Complex *g = polish ? arena_alloc(scratch, 2 * rank * rank, sizeof *g) : NULL;
     if (c == NULL || mass == NULL || z == NULL || (polish && g == NULL))
         return STRUM_ERR_MEMORY;
-    status = linalg_project(n, r, m->damping, full, l, half, c, a->work);
+    status = linalg_project(n, d.rank, m->damping, m->part.count, d.l, d.half, c, a->work);
     if (status == STRUM_OK)
-        status = linalg_project(n, r, m->mass, full, l, half, mass, a->work);
+        status = linalg_project(n, d.rank, m->mass, m->part.count, d.l, d.half, mass, a->work);
     if (status == STRUM_OK)
-        status = linalg_quadratic(r, c, mass, z, g, a->work);
+        status = linalg_quadratic(d.rank, c, mass, z, g, a->work);
     if (status == STRUM_OK)
-        status = root_list_grow(list, 2 * r, a);
+        status = root_list_grow(list, 2 * d.rank, a);
     double largest = 0;
     for (size_t k = 0; k < 2 * rank; k++)
         largest = fmax(largest, cabs(z[k]));
@@ -210,77 +243,54 @@ static strum_status quadratic_roots(const in_plane_assembly *m, int n, bool vect
             break;
         root found = {.symmetry = m->part.symmetry};
         const double _Complex *gk = polish ? g + k * rank : NULL;
-        found.s = 1 / (polish ? polish_root(r, c, mass, gk, z[k]) : z[k]);
+        found.s = 1 / (polish ? polish_root(d.rank, c, mass, gk, z[k]) : z[k]);
         if (cimag(z[k]) == 0)
             found.s = creal(found.s);
-        if (vectors) {
-            /* x = -L g, f = (s^2 M + s D) x */
-            double _Complex *x = arena_alloc(a, 2 * size, sizeof *x);
-            if (x == NULL)
-                return STRUM_ERR_MEMORY;
-            double _Complex *f = x + size;
-            for (size_t i = 0; i < rank; i++)
-                for (size_t j = 0; j < size; j++)
-                    x[j] -= l[j + i * size] * gk[i];
-            for (size_t i = 0; i < size; i++)
-                for (size_t j = 0; j < size; j++)
-                    f[j] += (found.s * found.s * m->mass[j + i * (size_t)full] +
-                             found.s * m->damping[j + i * (size_t)full]) *
-                            x[i];
-            found.vector = f;
-            found.length = n;
-            constants_of(m, &found);
-        }
-        list->items[list->count++] = found;
+        if (vectors)
+            status = give_vector(m, &d, gk, a, &found);
+        if (status == STRUM_OK)
+            list->items[list->count++] = found;
     }
     return status;
 }
 
 /* Mixed form without damping that is not proportional: L'ML g = (1/w^2) g. */
-static strum_status mixed_roots(const strum_cable *cable, const in_plane_assembly *m, int n,
-                                int want, arena *a, arena *scratch, root_list *list)
+static strum_status mixed_roots(const root_search *q, const in_plane_assembly *m, int n,
+                                arena *a, arena *scratch, root_list *list)
 {
-    const int full = m->part.count;
-    const size_t size = (size_t)n;
-    double *block = arena_doubles(scratch, size * size), *mu = arena_doubles(scratch, size);
-    double *l = arena_doubles(scratch, size * size),
-           *half = arena_doubles(scratch, size * size);
-    if (block == NULL || l == NULL || half == NULL || mu == NULL)
-        return STRUM_ERR_MEMORY;
-    for (size_t j = 0; j < size; j++)
-        memcpy(block + j * size, m->compliance + j * (size_t)full, size * sizeof *block);
-    int r;
-    strum_status status = linalg_semidefinite_root(n, block, n, l, &r, a->work);
+    reduced d;
+    strum_status status = reduce(m, n, scratch, &d);
     if (status != STRUM_OK)
         return status;
-    status = linalg_project(n, r, m->mass, full, l, half, block, a->work);
-    want = want < r ? want : r;
+    const int r = d.rank, want = q->want < r ? q->want : r;
+    double *matrix = arena_room(scratch, (size_t)r * (size_t)r);
+    double *mu = arena_doubles(scratch, (size_t)n);
     double *v = arena_doubles(scratch, (size_t)r * (size_t)want);
-    if (v == NULL)
+    if (matrix == NULL || mu == NULL || v == NULL)
         return STRUM_ERR_MEMORY;
+    status = linalg_project(n, d.rank, m->mass, m->part.count, d.l, d.half, matrix, a->work);
     if (status == STRUM_OK)
-        status = linalg_symmetric(r, block, r, NULL, 0, want, mu, v, a->work);
+        status = linalg_symmetric(r, matrix, r, NULL, 0, want, mu, v, a->work);
     const root model = {.symmetry = m->part.symmetry};
-    return status == STRUM_OK ? append_symmetric(cable->eta_t / cable->mass_t, r, want, mu,
-                                                 NULL, &model, a, list)
+    return status == STRUM_OK ? append_symmetric(q->cable->eta_t / q->cable->mass_t, r, want,
+                                                 mu, NULL, &model, a, list)
                               : status;
 }
 
-strum_status in_plane_roots(const strum_cable *cable, const in_plane_assembly *m,
-                            in_plane_form form, int size, int want, bool vectors, arena *a,
-                            root_list *list)
+strum_status in_plane_roots(const root_search *q, const in_plane_assembly *m, int size,
+                            bool vectors, arena *a, root_list *list)
 {
     arena scratch = {.work = a->work};
     strum_status status;
     int n = 0;
     while (n < m->part.count && m->part.index[n] < size)
         n++;
-    if (!in_plane_proportional(cable))
+    if (!in_plane_proportional(q->cable))
         status = quadratic_roots(m, n, vectors, n == m->part.count, a, &scratch, list);
-    else if (form == IN_PLANE_FORCE_FORM)
-        status = complementary_roots(cable, m, n, want, vectors, a, &scratch, list);
+    else if (q->form == IN_PLANE_FORCE_FORM)
+        status = complementary_roots(q, m, n, vectors, a, &scratch, list);
     else
-        status = mixed_roots(cable, m, n, want, a, &scratch, list);
+        status = mixed_roots(q, m, n, a, &scratch, list);
     arena_free(&scratch);
     return status;
 }

@@ -51,6 +51,12 @@ static strum_status second_roots(const strum_modes *sp, int size, int want, aren
                                  root_list *list, const char **method)
 {
     const strum_cable *c = &sp->cable;
+    root_search q = {.cable = c,
+                     .x = &sp->coordinate,
+                     .plane = sp->plane,
+                     .form = IN_PLANE_CLAMPED_FORM,
+                     .size = size,
+                     .want = want};
     const bool undamped = c->eta_t == 0 && c->eta_n == 0;
     const bool stiff = c->kappa_t == 0 && c->kappa_n == 0;
     if (sp->plane == STRUM_OUT_OF_PLANE) {
@@ -58,12 +64,12 @@ static strum_status second_roots(const strum_modes *sp, int size, int want, aren
     } else if (undamped && stiff && sp->coordinate.stretch == 0 &&
                fabs(c->chi_m) + c->mu <= DISPLACEMENT_CHI_MAX) {
         *method = "displacement Galerkin (Gale 2.35, clamped u)";
-        return displacement_roots(c, false, size, 0, want, a, list, NULL);
+        return displacement_roots(&q, false, a, list, NULL);
     } else {
         *method = "clamped-displacement Galerkin (Hellinger-Reissner form)";
     }
-    return spectrum_roots(c, &sp->coordinate, sp->plane, IN_PLANE_CLAMPED_FORM, size + 4, 0,
-                          want, false, a, list, NULL, NULL);
+    q.size = size + 4;
+    return spectrum_roots(&q, a, list, NULL, NULL);
 }
 
 static double nearest(const root_list *list, double _Complex s)

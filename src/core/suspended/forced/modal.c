@@ -39,7 +39,7 @@ static double load(const forced_part *p, int j, int direction)
 {
     const double end =
         p->part.index[j] == 0 && p->part.component[j] == direction ? sqrt(0.5) : 0;
-    return end + p->constants.from_unknowns[2 * j + direction];
+    return end + p->part.rule.from_unknowns[2 * j + direction];
 }
 
 static strum_status make_shares(forced_part *p, arena *a)
@@ -66,44 +66,35 @@ static strum_status make_shares(forced_part *p, arena *a)
     return STRUM_OK;
 }
 
-static strum_status make_part(const strum_cable *cable, const mapping *x,
-                              strum_symmetry symmetry, int size, arena *a, arena *scratch,
-                              forced_part *part)
+static strum_status make_part(const strum_forced *f, strum_symmetry symmetry, arena *a,
+                              arena *scratch, forced_part *part)
 {
-    legendre b;
+    legendre basis;
     in_plane_frame frame;
+    const root_search q = {
+        .cable = &f->cable, .x = &f->coordinate, .form = IN_PLANE_FORCE_FORM, .size = f->size};
     strum_status status =
-        legendre_make(size, mapping_singularity(x), symmetry != STRUM_NO_SYMMETRY, scratch, &b);
-    if (status == STRUM_OK)
-        status = in_plane_frame_make(x, &b, scratch, &frame);
-    if (status == STRUM_OK)
-        status = in_plane_part_make(symmetry, IN_PLANE_FORCE_FORM, size, a, &part->part);
+        in_plane_begin(&q, symmetry, scratch, a, a, &basis, &frame, &part->part);
     if (status != STRUM_OK)
         return status;
     const size_t n = (size_t)part->part.count;
-    part->compliance = arena_room(a, n * n);
     part->along = arena_room(a, n * n);
     part->across = arena_room(a, n * n);
     part->phi = arena_room(a, n * n);
     part->mu = arena_doubles(a, n);
-    part->constants.from_unknowns = arena_doubles(a, 2 * n);
     double *k = arena_room(scratch, n * n);
-    if (part->compliance == NULL || part->along == NULL || part->across == NULL ||
-        part->phi == NULL || part->mu == NULL || part->constants.from_unknowns == NULL ||
+    if (part->along == NULL || part->across == NULL || part->phi == NULL || part->mu == NULL ||
         k == NULL)
         return STRUM_ERR_MEMORY;
-    status = in_plane_compliance(cable, &frame, &part->part, IN_PLANE_FORCE_FORM,
-                                 part->compliance, &part->constants, scratch);
-    if (status == STRUM_OK)
-        status = in_plane_complementary(1, 0, &frame, &part->part, part->along, scratch);
+    status = in_plane_complementary(1, 0, &frame, &part->part, part->along, scratch);
     if (status == STRUM_OK)
         status = in_plane_complementary(0, 1, &frame, &part->part, part->across, scratch);
     if (status != STRUM_OK)
         return status;
     for (size_t i = 0; i < n * n; i++)
-        k[i] = part->along[i] / cable->mass_t + part->across[i] / cable->mass_n;
-    status = linalg_symmetric((int)n, part->compliance, (int)n, k, (int)n, (int)n, part->mu,
-                              part->phi, scratch->work);
+        k[i] = part->along[i] / f->cable.mass_t + part->across[i] / f->cable.mass_n;
+    status = linalg_symmetric((int)n, part->part.compliance, (int)n, k, (int)n, (int)n,
+                              part->mu, part->phi, scratch->work);
     return status == STRUM_OK ? make_shares(part, a) : status;
 }
 
@@ -147,11 +138,11 @@ static strum_status make_at_size(strum_forced *f, int size, work *w)
         if (status != STRUM_OK)
             return status;
         arena scratch = {.work = w};
-        status = make_part(&f->cable, &f->coordinate,
+        status = make_part(f,
                            !level   ? STRUM_NO_SYMMETRY
                            : i == 0 ? STRUM_SYMMETRIC
                                     : STRUM_ANTISYMMETRIC,
-                           size, &f->memory, &scratch, &f->parts[i]);
+                           &f->memory, &scratch, &f->parts[i]);
         arena_free(&scratch);
     }
     if (status == STRUM_OK && f->out_of_plane) {
@@ -297,8 +288,8 @@ static void scatter(const forced_part *p, const double *v, int half, strum_respo
     double c[2] = {0, 0};
     for (int j = 0; j < p->part.count; j++) {
         response->v[p->part.component[j]][half][p->part.index[j]] = v[j];
-        c[0] += p->constants.from_unknowns[2 * j] * v[j];
-        c[1] += p->constants.from_unknowns[2 * j + 1] * v[j];
+        c[0] += p->part.rule.from_unknowns[2 * j] * v[j];
+        c[1] += p->part.rule.from_unknowns[2 * j + 1] * v[j];
     }
     for (int k = 0; k < 2; k++)
         response->constant[k] += response->scale * (half == 0 ? c[k] : CMPLX(0, c[k]));
@@ -342,7 +333,7 @@ static strum_status solve_damped(const forced_part *p, const double _Complex d[2
     for (int j = 0; j < n; j++)
         r[j] = load(p, j, 0) * d[0] + load(p, j, 1) * d[1];
     for (size_t i = 0; i < (size_t)n * (size_t)n; i++)
-        z[i] = p->compliance[i] + p->along[i] * response->inverse_t +
+        z[i] = p->part.compliance[i] + p->along[i] * response->inverse_t +
                p->across[i] * response->inverse_n;
     const strum_status status = linalg_complex_solve(n, z, r, NULL);
     for (int half = 0; half < 2 && status == STRUM_OK; half++) {
@@ -395,7 +386,7 @@ strum_status strum_response_solve(strum_response *response, double frequency,
             return status;
         for (int k = 0; k < 2; k++)
             response->constant[k] +=
-                p->constants.from_motion[k][0] * d[0] + p->constants.from_motion[k][1] * d[1];
+                p->part.rule.from_motion[k][0] * d[0] + p->part.rule.from_motion[k][1] * d[1];
     }
     return f->out_of_plane
                ? forced_out_of_plane_solve(f, frequency, motion->out_of_plane, response, at)

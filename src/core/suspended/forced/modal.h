@@ -11,9 +11,7 @@
 
 /* One symmetry class of the in-plane problem: A f = mu K f, phi'K phi = 1. */
 typedef struct forced_part {
-    in_plane_part part;
-    in_plane_constants constants;
-    double *compliance;     /* A */
+    in_plane_part part;     /* with A */
     double *along, *across; /* K = along/m_t + across/m_n */
     double *mu, *phi;       /* all n pairs, mu descending */
     int modes;              /* pairs whose mu is more than rounding */

@@ -68,7 +68,7 @@ void response_of_mode(strum_response *r, const forced_part *p, int mode)
     for (int j = 0; j < n; j++) {
         r->v[p->part.component[j]][0][p->part.index[j]] = phi[j];
         for (int k = 0; k < 2; k++)
-            r->constant[k] += p->constants.from_unknowns[2 * j + k] * phi[j];
+            r->constant[k] += p->part.rule.from_unknowns[2 * j + k] * phi[j];
     }
 }
 
