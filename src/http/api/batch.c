@@ -360,7 +360,8 @@ static batch *batch_new(connection *p)
     const size_t workers = (size_t)thread_pool_count(s->thread_pool).workers;
     b->runner_count = workers < RUNNERS ? workers : RUNNERS;
     for (size_t i = 0; i < b->runner_count; i++)
-        b->runners[i] = (runner){.job = {.work = run, .cost_us = TURN_US}, .batch = b};
+        b->runners[i] = (runner){
+            .job = {.work = run, .cost_us = TURN_US, .bytes = WINDOW_BYTES}, .batch = b};
     return b;
 }
 

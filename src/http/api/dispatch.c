@@ -247,8 +247,14 @@ enum MHD_Result dispatch_body(connection *p, const char *bytes, size_t size)
     }
     if (r->body_seen > limit + BODY_DRAIN)
         return MHD_NO;
-    if (!r->refusal.status)
+    if (!r->refusal.status && !memory_take_body(&p->service->memory, size)) {
+        problem_set(&r->refusal, 503, "no memory is free for this body; try again later");
+        r->close = true;
+    }
+    if (!r->refusal.status) {
+        r->body_counted += size;
         strbuf_add(&r->body, bytes, size);
+    }
     return MHD_YES;
 }
 
@@ -271,6 +277,8 @@ void dispatch_end(connection *p)
     /* First: from here on the reaper leaves the request alone. */
     connection_enter(p, CONNECTION_IDLE, set->idle_timeout_s + set->request_timeout_s);
     request_release(r);
+    memory_give_body(&p->service->memory, r->body_counted);
+    r->body_counted = 0;
     if (r->counted)
         atomic_fetch_sub(&p->service->batches, 1);
     r->counted = false;

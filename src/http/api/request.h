@@ -25,6 +25,7 @@ typedef struct request {
     bool counted;             /* among service.batches */
     bool given_id;            /* the client gave it: it is always returned */
     strbuf body;
+    size_t body_counted; /* bytes counted by memory_take_body */
     uint64_t body_seen; /* bytes received, kept or not */
     problem refusal;    /* status 0: none so far */
     /* the way to an answer (solve_handler.c) */

@@ -232,12 +232,14 @@ static task *task_new(service *s, evaluation *a, const cache_key *key, flight *f
         evaluation_free(a);
         return NULL;
     }
-    *t = (task){.job = {.work = task_work, .cost_us = a ? evaluation_cost_us(a) : 0},
-                .service = s,
-                .asking = a,
-                .key = *key,
-                .flight = f,
-                .given_us = clock_us()};
+    const double cost_us = a ? evaluation_cost_us(a) : 0;
+    *t = (task){
+        .job = {.work = task_work, .cost_us = cost_us, .bytes = memory_of_solve(cost_us)},
+        .service = s,
+        .asking = a,
+        .key = *key,
+        .flight = f,
+        .given_us = clock_us()};
     return t;
 }
 
@@ -299,7 +301,8 @@ static enum MHD_Result solve(connection *p, evaluation *a)
     waiter *w = wants_events(r) ? events_open(p) : &r->waiter;
     if (w && key_of_evaluation(a, &r->canonical, &key))
         turn = cache_acquire(s->cache, &key, w, &hit, &lead);
-    if (turn == ROLE_LEADER && is_costly(s, a))
+    /* Nor is anything solved on this thread while memory is short: it waits with the others. */
+    if (turn == ROLE_LEADER && (is_costly(s, a) || memory_used(&s->memory) > s->memory.limit))
         return queue_solve(p, a, &key, lead);
     if (turn == ROLE_LEADER)
         solve_flight(s, a, &key, lead, 0);

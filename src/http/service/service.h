@@ -7,6 +7,7 @@
 
 #include "cache/store.h"
 #include "http/service/access.h"
+#include "http/service/memory.h"
 #include "http/service/metrics.h"
 #include "http/service/settings.h"
 #include "http/service/thread_pool.h"
@@ -21,6 +22,7 @@ typedef struct service {
     access_list *access; /* NULL: no token is needed */
     thread_pool *thread_pool;
     metrics *metrics;
+    memory_account memory;
     /* Set by the layer above: */
     const struct page *pages;       /* the paths served beside the endpoints */
     struct MHD_Response *no_memory; /* sent when no other response can be made */

@@ -18,6 +18,8 @@
 
 /* A lane with work may be passed over so many times in a row. */
 #define PATIENCE 3
+/* While a job waits for memory. */
+#define MEMORY_PERIOD_MS 100
 
 typedef struct job_queue {
     job *first, **last;
@@ -38,6 +40,7 @@ struct thread_pool {
     queue_limit cheap, costly; /* LANE_CHEAP; LANE_COSTLY and LANE_LONG */
     size_t busy, longs;        /* workers for all lanes at work; on long jobs */
     bool cheap_busy, ending;
+    bool starved; /* the last job looked at had no memory to begin */
     thread_pool_counters count;
     pthread_t threads[];
 };
@@ -55,6 +58,29 @@ static size_t long_limit(const thread_pool *c)
 static bool may_begin(const thread_pool *c, thread_pool_lane lane)
 {
     return c->lanes[lane].first && (!is_long(lane) || c->longs < long_limit(c));
+}
+
+/* Counts the memory of a lane's first job, which is taken next; false: there is none for it now. */
+static bool has_memory(thread_pool *c, thread_pool_lane lane)
+{
+    const thread_pool_options *o = &c->options;
+    c->starved = o->begin && !o->begin(o->memory, c->lanes[lane].first->bytes);
+    return !c->starved;
+}
+
+/* Waits for a signal, or a while if all that keeps a job from beginning is memory. */
+static void wait_for_work(thread_pool *c, pthread_cond_t *work)
+{
+    if (!c->starved) {
+        pthread_cond_wait(work, &c->lock);
+        return;
+    }
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += MEMORY_PERIOD_MS * 1000000;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(work, &c->lock, &until);
 }
 
 /* ---- the queues ---- */
@@ -108,7 +134,7 @@ static job *take(thread_pool *c)
         if (may_begin(c, (thread_pool_lane)i) &&
             (next == LANES || c->lanes[next].passed < PATIENCE))
             next = i;
-    if (next == LANES)
+    if (next == LANES || !has_memory(c, (thread_pool_lane)next))
         return NULL;
     for (int i = next + 1; i < LANES; i++)
         c->lanes[i].passed += may_begin(c, (thread_pool_lane)i);
@@ -122,6 +148,7 @@ static job *take(thread_pool *c)
 static void work_on(thread_pool *c, job *j)
 {
     const bool takes_long = is_long(j->lane);
+    const size_t bytes = j->bytes;
     c->longs += takes_long;
     c->count.working++;
     pthread_mutex_unlock(&c->lock);
@@ -130,6 +157,8 @@ static void work_on(thread_pool *c, job *j)
     c->count.working--;
     c->count.done++;
     c->longs -= takes_long;
+    if (c->options.end)
+        c->options.end(c->options.memory, bytes);
     /* A worker that waits may now begin a long one. */
     if (takes_long && (c->lanes[LANE_LONG].first || c->lanes[LANE_BATCH_LONG].first))
         pthread_cond_signal(&c->work);
@@ -163,7 +192,7 @@ static void *worker(void *argument)
         } else if (c->ending && !has_work(c)) {
             break;
         } else {
-            pthread_cond_wait(&c->work, &c->lock);
+            wait_for_work(c, &c->work);
         }
     }
     pthread_cond_broadcast(&c->work);
@@ -177,13 +206,13 @@ static void *cheap_worker(void *argument)
     step_back(CHEAP_WORKER_NICE);
     pthread_mutex_lock(&c->lock);
     for (;;) {
-        c->cheap_busy = c->lanes[LANE_CHEAP].first;
+        c->cheap_busy = c->lanes[LANE_CHEAP].first && has_memory(c, LANE_CHEAP);
         if (c->cheap_busy)
             work_on(c, take_from(c, LANE_CHEAP));
-        else if (c->ending)
+        else if (c->ending && !c->lanes[LANE_CHEAP].first)
             break;
         else
-            pthread_cond_wait(&c->cheap_work, &c->lock);
+            wait_for_work(c, &c->cheap_work);
     }
     pthread_mutex_unlock(&c->lock);
     return NULL;

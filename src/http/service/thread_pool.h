@@ -29,6 +29,7 @@ typedef enum thread_pool_lane {
 typedef struct job {
     void (*work)(struct job *j);
     double cost_us; /* estimate */
+    size_t bytes;   /* of memory while it is at work, estimate */
     /* the rest is the pool's */
     struct job *next;
     thread_pool_lane lane;
@@ -40,6 +41,11 @@ typedef struct thread_pool_options {
     int workers;     /* at least 1; one more is started for cheap jobs if cheap_us > 0 */
     size_t depth;    /* maximum number of jobs waiting, of cheap and of other requests each */
     double cheap_us; /* jobs estimated to take less are cheap */
+    /* May be NULL: whether a job of so many bytes may begin, asked again ten times a second while
+     * it may not; and its end. With `memory`, under the lock of the pool: short. */
+    bool (*begin)(void *memory, size_t bytes);
+    void (*end)(void *memory, size_t bytes);
+    void *memory;
 } thread_pool_options;
 
 /* Returns NULL when memory or a thread cannot be had. */

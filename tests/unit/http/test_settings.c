@@ -63,7 +63,7 @@ static void defaults_are_safe(void **state)
     assert_string_equal(t.settings.cors_origins, "");
     assert_int_equal(t.settings.cache_bytes, 64 << 20);
     assert_int_equal(t.settings.body_bytes, 64 << 10);
-    check_relative(t.settings.inline_us, 50, 0);
+    check_relative(t.settings.inline_us, 250, 0);
     assert_int_equal(t.settings.log_requests, LOG_ERRORS);
     told_clear(&t);
 }

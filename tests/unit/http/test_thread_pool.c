@@ -33,7 +33,8 @@ enum { CHEAP = 1, COSTLY = 5000, LONG = 200000 };
 
 static thread_pool *pool_of(int workers, size_t depth)
 {
-    return thread_pool_new(&(thread_pool_options){workers, depth, CHEAP_US});
+    return thread_pool_new(
+        &(thread_pool_options){.workers = workers, .depth = depth, .cheap_us = CHEAP_US});
 }
 
 static void gated_init(gated *g, double cost_us)
@@ -231,6 +232,49 @@ static void cheap_jobs_wait_for_no_other(void **state)
     thread_pool_free(c);
 }
 
+/* Memory for one job at a time. */
+static atomic_int jobs_with_memory;
+
+static bool begin_one(void *memory, size_t bytes)
+{
+    assert_ptr_equal(memory, &jobs_with_memory);
+    assert_int_equal(bytes, 7);
+    int none = 0;
+    return atomic_compare_exchange_strong(&jobs_with_memory, &none, 1);
+}
+
+static void end_one(void *memory, size_t bytes)
+{
+    (void)memory;
+    (void)bytes;
+    jobs_with_memory = 0;
+}
+
+static void a_job_without_memory_waits(void **state)
+{
+    (void)state;
+    gated jobs[2];
+    thread_pool *c = thread_pool_new(&(thread_pool_options){.workers = 2,
+                                                            .depth = 2,
+                                                            .begin = begin_one,
+                                                            .end = end_one,
+                                                            .memory = &jobs_with_memory});
+    jobs_with_memory = 1; /* others have it */
+    for (int i = 0; i < 2; i++) {
+        gated_init(&jobs[i], COSTLY);
+        jobs[i].job.bytes = 7;
+        assert_true(thread_pool_queue(c, &jobs[i].job));
+    }
+    assert_int_equal(thread_pool_count(c).working, 0);
+    jobs_with_memory = 0; /* nobody signals this */
+    sem_wait(&jobs[0].begun);
+    assert_int_equal(thread_pool_count(c).working, 1);
+    sem_post(&jobs[0].let);
+    sem_wait(&jobs[1].begun);
+    sem_post(&jobs[1].let);
+    thread_pool_free(c);
+}
+
 static void no_worker_is_kept_where_nothing_is_cheap(void **state)
 {
     (void)state;
@@ -254,6 +298,7 @@ int main(void)
         cmocka_unit_test(a_batch_uses_every_worker),
         cmocka_unit_test(long_jobs_leave_a_worker_to_others),
         cmocka_unit_test(cheap_jobs_wait_for_no_other),
+        cmocka_unit_test(a_job_without_memory_waits),
         cmocka_unit_test(no_worker_is_kept_where_nothing_is_cheap),
         cmocka_unit_test(many_workers_do_every_job_once),
     };
