@@ -4,9 +4,11 @@ import contextlib
 import json
 import math
 import re
+import socket
 import time
 
 from conftest import CHEAP, ENDLESS, FORCED
+from test_batch import answers, item, open_batch, post_batch
 from test_events import open_events, read_until
 from test_load import answers_of, ask, wait_metric
 
@@ -166,3 +168,29 @@ def test_a_body_without_memory_is_refused(start_strumd):
     refused = strumd.request("POST", "/v1/batch", data=b"[" + b" " * 30000 + b"]", headers={"Content-Type": "application/json"})
     assert refused.status_code == 503 and refused.headers["Retry-After"] and "memory" in refused.json()["detail"]
     wait_metric(strumd, "memory_bytes", 0)
+
+
+def test_a_batch_takes_a_slot_when_its_body_is_whole(start_strumd):
+    strumd = start_strumd("--batches", "4")
+    head = b"POST /v1/batch HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n["
+    with contextlib.ExitStack() as stack:
+        for _ in range(16):
+            stack.enter_context(strumd.connect()).sendall(head)
+        wait_metric(strumd, "requests_busy", 17)  # and who asks for the metrics
+        assert answers(post_batch(strumd, [item(CHEAP)]))
+
+
+def test_no_client_holds_all_slots_of_batches(start_strumd):
+    strumd = start_strumd("--batches", "4")
+    with contextlib.ExitStack() as stack:
+        for n in range(3):
+            stack.enter_context(open_batch(strumd, [item(endless(n), FORCED)]))
+        wait_metric(strumd, "flights", 3)
+        refused = post_batch(strumd, [item(CHEAP)])
+        assert refused.status_code == 503 and refused.headers["Retry-After"]
+        other = socket.create_connection(("127.0.0.1", strumd.port), 60, source_address=("127.0.0.2", 0))
+        body = json.dumps([item(CHEAP)]).encode()
+        other.sendall(b"POST /v1/batch HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s"
+                      % (len(body), body))
+        assert read_until(other, b'"result"').startswith(b"HTTP/1.1 200")
+        other.close()

@@ -138,11 +138,13 @@ static uint64_t body_limit(const connection *p)
     return (uint64_t)(p->request->route.batch ? set->batch_body_bytes : set->body_bytes);
 }
 
-/* Counts a batch; returns false beyond the limit. Each keeps its body until its last item. */
-static bool count_batch(connection *p)
+/* A token stands for its client wherever it asks from. */
+static unsigned who_asks(const connection *p, const headers *h)
 {
-    p->request->counted = true; /* until dispatch_end */
-    return atomic_fetch_add(&p->service->batches, 1) < p->service->settings->batches;
+    const union MHD_ConnectionInfo *info =
+        MHD_get_connection_info(p->mhd, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
+    return client_of(info ? info->client_addr : NULL,
+                     p->service->access ? h->authorization : NULL);
 }
 
 /* Refuses everything that can be refused before the body has come. */
@@ -192,10 +194,6 @@ static void check(connection *p, const headers *h)
     } else if (!h->content_type && r->method == METHOD_QUERY) {
         /* RFC 10008 makes it a fault; POST without one is taken for JSON. */
         problem_set(&r->refusal, 400, "QUERY needs a Content-Type: application/json");
-    } else if (r->method == METHOD_POST && r->route.batch && !count_batch(p)) {
-        problem_set(&r->refusal, 503, "%lld batches are under way; try again later",
-                    (long long)p->service->settings->batches);
-        r->close = true;
     }
 }
 
@@ -224,6 +222,7 @@ enum MHD_Result dispatch_begin(connection *p, const char *url, const char *verb,
     MHD_get_connection_values_n(p->mhd, MHD_HEADER_KIND, read_header, &h);
     r->is_lines =
         r->route.batch && h.content_type && is_type(h.content_type, "application/x-ndjson");
+    r->client = who_asks(p, &h);
     check_framing(&h, r, version);
     if (!r->refusal.status)
         check(p, &h);
@@ -279,7 +278,9 @@ void dispatch_end(connection *p)
     request_release(r);
     memory_give_body(&p->service->memory, r->body_counted);
     r->body_counted = 0;
-    if (r->counted)
+    if (r->counted) {
         atomic_fetch_sub(&p->service->batches, 1);
+        atomic_fetch_sub(&p->service->batches_of[r->client], 1);
+    }
     r->counted = false;
 }

@@ -225,7 +225,8 @@ static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *
 }
 
 /* Takes over `a` (NULL: only look it up in the store). Returns NULL when memory ran out. */
-static task *task_new(service *s, evaluation *a, const cache_key *key, flight *f)
+static task *task_new(service *s, evaluation *a, const cache_key *key, flight *f,
+                      unsigned client)
 {
     task *t = malloc(sizeof *t);
     if (!t) {
@@ -233,13 +234,15 @@ static task *task_new(service *s, evaluation *a, const cache_key *key, flight *f
         return NULL;
     }
     const double cost_us = a ? evaluation_cost_us(a) : 0;
-    *t = (task){
-        .job = {.work = task_work, .cost_us = cost_us, .bytes = memory_of_solve(cost_us)},
-        .service = s,
-        .asking = a,
-        .key = *key,
-        .flight = f,
-        .given_us = clock_us()};
+    *t = (task){.job = {.work = task_work,
+                        .cost_us = cost_us,
+                        .client = client,
+                        .bytes = memory_of_solve(cost_us)},
+                .service = s,
+                .asking = a,
+                .key = *key,
+                .flight = f,
+                .given_us = clock_us()};
     return t;
 }
 
@@ -248,7 +251,7 @@ static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key
                                    flight *f)
 {
     service *s = p->service;
-    task *t = task_new(s, a, key, f);
+    task *t = task_new(s, a, key, f, p->request->client);
     if (t && thread_pool_queue(s->thread_pool, &t->job))
         return wait_outcome(p);
     entry *full = t ? unavailable(key, "the queue is full; try again later") : NULL;
@@ -260,9 +263,10 @@ static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key
     return reply_outcome(p);
 }
 
-void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f)
+void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f,
+                      unsigned client)
 {
-    task *t = task_new(s, a, key, f);
+    task *t = task_new(s, a, key, f, client);
     if (t)
         thread_pool_queue_batch(s->thread_pool, &t->job);
     else

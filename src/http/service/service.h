@@ -27,6 +27,7 @@ typedef struct service {
     const struct page *pages;       /* the paths served beside the endpoints */
     struct MHD_Response *no_memory; /* sent when no other response can be made */
     atomic_int batches;             /* under way */
+    atomic_int batches_of[CLIENTS]; /* of each client */
     uint32_t id_prefix;             /* of request ids, so that two runs' ids differ */
     atomic_uint id_next;
     atomic_uint_fast64_t logged; /* successful requests, counted for log_sample */

@@ -21,14 +21,17 @@
 /* While a job waits for memory. */
 #define MEMORY_PERIOD_MS 100
 
+/* Jobs by their turns: that of a job is its client's last one, or the lane's present, plus its cost
+ * (start-time fair queueing: Goyal, Vin and Cheng 1996, with finish tags). */
 typedef struct job_queue {
-    job *first, **last;
+    job *first, *last;
+    double now, turn_of[CLIENTS];
     int passed; /* times passed over while a job waited that might have begun */
 } job_queue;
 
 /* Requests refused for want of a place, since when. */
 typedef struct queue_limit {
-    size_t queued;
+    size_t queued, queued_of[CLIENTS];
     int64_t full_since_ms;
 } queue_limit;
 
@@ -92,12 +95,25 @@ static queue_limit *limit_of(thread_pool *c, thread_pool_lane lane)
                                                       : NULL;
 }
 
+static void insert(job_queue *q, job *j)
+{
+    job **place = &q->first;
+    if (q->first && q->last->turn <= j->turn)
+        place = &q->last->next;
+    while (*place && (*place)->turn <= j->turn)
+        place = &(*place)->next;
+    j->next = *place;
+    *place = j;
+    if (!j->next)
+        q->last = j;
+}
+
 static void add(thread_pool *c, job *j)
 {
     job_queue *q = &c->lanes[j->lane];
-    j->next = NULL;
-    *q->last = j;
-    q->last = &j->next;
+    j->turn = fmax(q->now, q->turn_of[j->client]) + j->cost_us;
+    q->turn_of[j->client] = j->turn;
+    insert(q, j);
     c->count.queued[j->lane]++;
     c->count.backlog_us[j->lane] += j->cost_us;
     /* Both: the one for cheap jobs may be at work on a longer one. */
@@ -111,14 +127,14 @@ static job *take_from(thread_pool *c, thread_pool_lane lane)
     job_queue *q = &c->lanes[lane];
     job *j = q->first;
     q->first = j->next;
-    if (!q->first)
-        q->last = &q->first;
+    q->now = fmax(q->now, j->turn - j->cost_us);
     c->count.queued[lane]--;
     /* Sums of rounded numbers: nothing is left of them when nothing waits. */
     c->count.backlog_us[lane] = q->first ? fmax(c->count.backlog_us[lane] - j->cost_us, 0) : 0;
     queue_limit *limit = limit_of(c, lane);
     if (limit) {
         limit->queued--;
+        limit->queued_of[j->client]--;
         /* A single free place does not count: under a lasting overload it is taken at once. */
         if (limit->queued <= c->options.depth / 2)
             limit->full_since_ms = 0;
@@ -231,8 +247,6 @@ thread_pool *thread_pool_new(const thread_pool_options *options)
     thread_pool *c = calloc(1, sizeof *c + ((size_t)options->workers + 1) * sizeof *c->threads);
     if (!c)
         return NULL;
-    for (int i = 0; i < LANES; i++)
-        c->lanes[i].last = &c->lanes[i].first;
     c->options = *options;
     c->count.depth = options->depth;
     pthread_mutex_init(&c->lock, NULL);
@@ -273,6 +287,16 @@ void thread_pool_free(thread_pool *c)
 
 /* ---- from outside ---- */
 
+/* One client may take so many times what it leaves free, so that there are places for others
+ * (dynamic thresholds: Choudhury and Hahne 1998). */
+#define PLACES_FOR_ONE_LEFT 4
+
+static bool has_place(const queue_limit *limit, size_t depth, unsigned client)
+{
+    return limit->queued < depth &&
+           limit->queued_of[client] <= PLACES_FOR_ONE_LEFT * (depth - limit->queued);
+}
+
 bool thread_pool_queue(thread_pool *c, job *j)
 {
     pthread_mutex_lock(&c->lock);
@@ -283,9 +307,10 @@ bool thread_pool_queue(thread_pool *c, job *j)
     /* An idle worker takes a job at once: it does not wait in the queue. */
     const size_t idle =
         (size_t)c->options.workers - c->busy + (j->lane == LANE_CHEAP && !c->cheap_busy);
-    const bool room = limit->queued < c->options.depth + idle;
+    const bool room = has_place(limit, c->options.depth + idle, j->client);
     if (room) {
         limit->queued++;
+        limit->queued_of[j->client]++;
         add(c, j);
     } else {
         c->count.refused++;

@@ -3,7 +3,8 @@
  * Worker threads and the bounded queues before them, in lanes by estimated cost.
  *
  * One worker more than asked for takes cheap jobs only, so that these never wait for costly
- * ones. Long jobs (THREAD_POOL_LONG_US) occupy at most workers - 1 workers, at least one.
+ * ones. In a lane clients take turns, so that each has an equal share of the work, and one client
+ * leaves places in the queue to others. Long jobs (THREAD_POOL_LONG_US) occupy at most workers - 1 workers, at least one.
  */
 #ifndef HTTP_SERVICE_THREAD_POOL_H
 #define HTTP_SERVICE_THREAD_POOL_H
@@ -11,6 +12,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "http/service/client.h"
 
 /* Jobs estimated to take at least this long may not occupy every worker. */
 #define THREAD_POOL_LONG_US 1e5
@@ -28,9 +31,11 @@ typedef enum thread_pool_lane {
 /* A job, embedded in the object it works on; the caller keeps it until `work` is called. */
 typedef struct job {
     void (*work)(struct job *j);
-    double cost_us; /* estimate */
-    size_t bytes;   /* of memory while it is at work, estimate */
+    double cost_us;  /* estimate */
+    size_t bytes;    /* of memory while it is at work, estimate */
+    unsigned client; /* below CLIENTS */
     /* the rest is the pool's */
+    double turn;
     struct job *next;
     thread_pool_lane lane;
 } job;

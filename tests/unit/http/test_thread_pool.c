@@ -161,6 +161,48 @@ static void a_lane_passed_over_three_times_comes_next(void **state)
     assert_string_equal(noted, "rrrbrrrbrrb");
 }
 
+static void clients_take_turns(void **state)
+{
+    (void)state;
+    gated first;
+    noting jobs[6];
+    thread_pool *c = pool_of(1, 100);
+    noted_count = 0;
+    assert_true(gated_give(c, &first, COSTLY));
+    sem_wait(&first.begun);
+    for (int i = 0; i < 6; i++) {
+        jobs[i] = (noting){.job = {.work = note, .cost_us = COSTLY, .client = i < 4 ? 1 : 2},
+                           .letter = i < 4 ? 'a' : 'b'};
+        assert_true(thread_pool_queue(c, &jobs[i].job));
+    }
+    sem_post(&first.let);
+    thread_pool_free(c);
+    noted[noted_count] = '\0';
+    assert_string_equal(noted, "ababaa");
+}
+
+static void a_client_leaves_places_to_others(void **state)
+{
+    (void)state;
+    enum { DEPTH = 20 };
+    gated first;
+    static noting jobs[DEPTH + 1];
+    thread_pool *c = pool_of(1, DEPTH);
+    noted_count = 0;
+    assert_true(gated_give(c, &first, COSTLY));
+    sem_wait(&first.begun);
+    int places = 0;
+    for (int i = 0; i <= DEPTH; i++) {
+        jobs[i] = (noting){.job = {.work = note, .cost_us = COSTLY, .client = 1}};
+        places += thread_pool_queue(c, &jobs[i].job);
+    }
+    assert_int_equal(places, 17); /* the most with n - 1 <= 4 (20 - (n - 1)) */
+    noting other = {.job = {.work = note, .cost_us = COSTLY, .client = 2}};
+    assert_true(thread_pool_queue(c, &other.job));
+    sem_post(&first.let);
+    thread_pool_free(c);
+}
+
 static void a_batch_uses_every_worker(void **state)
 {
     (void)state;
@@ -295,6 +337,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_queue_is_bounded_and_in_order),
         cmocka_unit_test(a_lane_passed_over_three_times_comes_next),
+        cmocka_unit_test(clients_take_turns),
+        cmocka_unit_test(a_client_leaves_places_to_others),
         cmocka_unit_test(a_batch_uses_every_worker),
         cmocka_unit_test(long_jobs_leave_a_worker_to_others),
         cmocka_unit_test(cheap_jobs_wait_for_no_other),
