@@ -40,6 +40,11 @@ const setting settings_table[] = {
      "0: none is"},
     {"cache_bytes", SETTING_BYTES, AT(cache_bytes), 0, 1e12, "64M",
      "maximum memory for stored answers, their bookkeeping included; 0 stores none"},
+    {"memory_bytes", SETTING_BYTES, AT(memory_bytes), 0, 1e15, "0",
+     "maximum memory of requests under way, beside the cache: bodies, solves (estimated) and "
+     "answers not sent yet; "
+     "solves beyond it wait, then get 503; 0: half of the smallest memory.max of the control "
+     "groups, or of the machine"},
     {"store", SETTING_TEXT, AT(store), 0, 0, "",
      "address:port or unix:/path of a Redis server, as a second level of stored answers that "
      "several daemons share; empty: none"},
