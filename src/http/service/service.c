@@ -9,6 +9,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "endpoints/endpoint.h"
 #include "http/service/address.h"
 #include "http/service/clock.h"
 #include "http/service/log.h"
@@ -60,6 +61,7 @@ bool service_start(service *s, const settings *set, size_t routes,
                    const char *(*path)(size_t index), char fault[256])
 {
     *s = (service){.settings = set};
+    evaluation_limit_answers((size_t)set->answer_bytes);
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     const int workers = set->workers ? (int)set->workers : cores > 1 ? (int)cores : 1;
     const size_t depth =
