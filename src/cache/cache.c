@@ -31,6 +31,7 @@ struct cache {
     struct cached *newest, *oldest;
     flight *abandoned_first, *abandoned_last;
     cache_counters count;
+    atomic_size_t body_bytes;
 };
 
 /* ---- the table ---- */
@@ -114,6 +115,7 @@ static void evict(cache *c, struct cached *s)
     order_remove(c, s);
     c->count.bytes -= s->cost;
     c->count.entries--;
+    atomic_fetch_sub_explicit(&c->body_bytes, s->entry.size, memory_order_relaxed);
     entry_unref(&s->entry);
 }
 
@@ -136,6 +138,7 @@ static void store(cache *c, entry *e)
     order_add(c, s);
     c->count.bytes += cost;
     c->count.entries++;
+    atomic_fetch_add_explicit(&c->body_bytes, e->size, memory_order_relaxed);
 }
 
 entry *cache_find(cache *c, cache_level level, const cache_key *key)
@@ -345,6 +348,11 @@ void cache_free(cache *c)
     pthread_mutex_destroy(&c->lock);
     free(c->buckets);
     free(c);
+}
+
+size_t cache_body_bytes(const cache *c)
+{
+    return atomic_load_explicit(&c->body_bytes, memory_order_relaxed);
 }
 
 cache_counters cache_count(cache *c)

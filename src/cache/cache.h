@@ -31,6 +31,9 @@ cache *cache_new(size_t cap);
 void cache_free(cache *c);
 cache_counters cache_count(cache *c);
 
+/* Bytes of the bodies stored; without the lock. */
+size_t cache_body_bytes(const cache *c);
+
 typedef enum cache_level { CACHE_CANONICAL, CACHE_RAW } cache_level;
 /* The stored answer of a key, referenced for the caller, or NULL. */
 entry *cache_find(cache *c, cache_level level, const cache_key *key);

@@ -27,6 +27,8 @@ typedef struct entry {
     void (*prebuilt_drop)(void *face);
 } entry;
 
+/* Bytes of all bodies that exist. */
+size_t entry_bytes(void);
 /* Takes over the bytes of `body` (which is as new afterwards). NULL when memory ran out. */
 entry *entry_new(const cache_key *key, int status, strbuf *body);
 entry *entry_ref(entry *e);

@@ -3,6 +3,13 @@
 
 #include <stdlib.h>
 
+static atomic_size_t bytes_alive;
+
+size_t entry_bytes(void)
+{
+    return atomic_load_explicit(&bytes_alive, memory_order_relaxed);
+}
+
 entry *entry_new(const cache_key *key, int status, strbuf *body)
 {
     struct cached *s = body->failed || !body->data ? NULL : calloc(1, sizeof *s);
@@ -17,6 +24,7 @@ entry *entry_new(const cache_key *key, int status, strbuf *body)
     char *trimmed = realloc(body->data, body->size + 1);
     s->entry.body = trimmed ? trimmed : body->data;
     s->entry.size = body->size;
+    atomic_fetch_add_explicit(&bytes_alive, body->size, memory_order_relaxed);
     *body = (strbuf){0};
     s->references = 1;
     s->body_holds = 1; /* of all references together */
@@ -50,6 +58,7 @@ void entry_release_body(entry *e)
     struct cached *s = cached_of(e);
     if (atomic_fetch_sub_explicit(&s->body_holds, 1, memory_order_acq_rel) > 1)
         return;
+    atomic_fetch_sub_explicit(&bytes_alive, e->size, memory_order_relaxed);
     free(e->body);
     free(s);
 }

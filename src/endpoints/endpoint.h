@@ -46,7 +46,7 @@ typedef struct answer {
 
 /* Tells whoever looks on; `best` NAN: none so far, `what` may be NULL. */
 void answer_progress(const answer *a, int64_t evaluations, double best, const char *what);
-/* Nobody waits any more: poll this where the work is long, and give up with 503. */
+/* Nobody waits any more, or the answer has already become too large to be sent: poll this where the work is long, and give up with 503. */
 bool answer_cancelled(const answer *a);
 /* What a solve of the library takes, so that it ends once nobody waits. */
 strum_options answer_options(const answer *a);
@@ -64,15 +64,25 @@ typedef struct endpoint {
     /* Estimated work in microseconds: decides between answering at once and handing to the
      * thread_pool. */
     double (*cost_us)(const void *request);
+    /* May be NULL: a careful estimate, never above its size, of the part of the answer that grows
+     * with the request (bytes), and the field that decides it. */
+    double (*answer_bytes)(const void *request, const char **pointer);
     /* Writes the result; false with a->problem set when there is none. Pure: depends on
      * `request` only. */
     bool (*answer)(const void *request, answer *a);
 } endpoint;
 
+/* What a number takes in an answer, at least: few have less than half the digits of a double. */
+#define ANSWER_NUMBER_BYTES 10
+
 /* ---- one asking: what http and cache see of all this ---- */
 
 /* A request that was read, checked and completed. Owned by the caller; ended by evaluation_free. */
 typedef struct evaluation evaluation;
+
+/* Bytes that an answer may have, of every thread; 0, as at first: no limit. A request whose answer
+ * would have more is refused when it is read where that is known, else when it is answered. */
+void evaluation_limit_answers(size_t bytes);
 
 /* From a JSON body / from query pairs. NULL with `p` filled when refused. */
 evaluation *evaluation_read(const endpoint *e, const char *body, size_t size,

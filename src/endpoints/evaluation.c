@@ -23,12 +23,35 @@ struct evaluation {
     double cost_us; /* an estimate may itself solve something: made once */
 };
 
+static _Atomic size_t answer_most;
+
+void evaluation_limit_answers(size_t bytes)
+{
+    atomic_store(&answer_most, bytes);
+}
+
+/* Refuses what would have more bytes than may be sent. */
+static void check_bytes(const endpoint *e, const void *request, problem *p)
+{
+    const size_t most = atomic_load(&answer_most);
+    const char *pointer = "";
+    if (most == 0 || e->answer_bytes == NULL)
+        return;
+    const double bytes = e->answer_bytes(request, &pointer);
+    if (bytes > (double)most)
+        problem_add(p, pointer,
+                    "asks for an answer of more than %.3g bytes; at most %zu are sent", bytes,
+                    most);
+}
+
 /* Checks across fields, and the evaluation itself; takes the arena. */
 static evaluation *evaluation_complete(const endpoint *e, void *request, schema_arena *arena,
                                        problem *p)
 {
     if (request != NULL && e->prepare != NULL)
         e->prepare(request, arena, p);
+    if (request != NULL && p->status == 0)
+        check_bytes(e, request, p);
     evaluation *a = request != NULL && p->status == 0 ? malloc(sizeof *a) : NULL;
     if (a == NULL) {
         schema_free(arena);
@@ -132,6 +155,8 @@ void answer_progress(const answer *a, int64_t evaluations, double best, const ch
 
 bool answer_cancelled(const answer *a)
 {
+    if (a->result->out->full)
+        return true;
     if (a->cancel == NULL || !atomic_load_explicit(a->cancel, memory_order_relaxed))
         return false;
     if (a->observer != NULL)
@@ -200,6 +225,7 @@ bool evaluation_answer(const evaluation *a, const char *key, observer *w, strbuf
     json_key(&json, "request");
     schema_echo(a->endpoint->request, a->request, &json);
     json_key(&json, "result");
+    out->most = atomic_load(&answer_most);
     const double start = now_us(CLOCK_MONOTONIC);
     const double cpu = now_us(CLOCK_THREAD_CPUTIME_ID);
     bool good = a->endpoint->answer(a->request, &answered);
@@ -212,6 +238,12 @@ bool evaluation_answer(const evaluation *a, const char *key, observer *w, strbuf
         write_end(&answered, key, &json);
         json_close_object(&json);
     }
+    if (out->full) {
+        problem_clear(p); /* whatever followed from it */
+        problem_set(p, 422, "the answer would have more than %zu bytes", out->most);
+        good = false;
+    }
+    out->most = 0;
     if (good && (out->failed || warnings.failed)) {
         problem_set(p, 500,
                     "the answer could not be written: memory ran out, or a result is "

@@ -11,6 +11,10 @@ bool strbuf_reserve(strbuf *out, size_t size)
 {
     if (out->failed)
         return false;
+    if (out->most > 0 && size > out->most - out->size) {
+        out->failed = out->full = true;
+        return false;
+    }
     if (size < out->room - out->size) /* room is 0 or larger than size */
         return true;
     size_t room = out->room > 0 ? out->room : 128;

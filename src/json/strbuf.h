@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A growing run of bytes. Running out of memory sets `failed` and is checked once, at the end.
- */
+/* A growing run of bytes. Running out of memory, or of the bytes it may have, sets `failed` and is
+ * checked once, at the end. */
 #ifndef JSON_STRBUF_H
 #define JSON_STRBUF_H
 
@@ -11,7 +11,9 @@
 typedef struct strbuf {
     char *data; /* owned; always NUL-terminated when not NULL */
     size_t size, room;
+    size_t most; /* bytes that it may have; 0: no limit */
     bool failed;
+    bool full; /* failed for that limit */
 } strbuf;
 
 /* Room for `size` more bytes, at data + size, and the NUL; false without memory. */

@@ -4,9 +4,11 @@ import contextlib
 import json
 import math
 import re
+import socket
 import time
 
 from conftest import CHEAP, ENDLESS, FORCED
+from test_batch import answers, item, open_batch, post_batch
 from test_events import open_events, read_until
 from test_load import answers_of, ask, wait_metric
 
@@ -140,3 +142,55 @@ def test_who_asks_again_for_an_abandoned_question_joins_it(start_strumd):
     (status, headers, _), = answers_of([again])
     assert status == 200 and headers["cache-status"] == "strum; fwd=miss; collapsed"
     assert strumd.metric("solves_total") == 1
+
+
+def test_answers_that_nobody_reads_hold_solves_up(start_strumd):
+    """What is not read counts as memory: another question waits until there is room, stored answers still come."""
+    strumd = start_strumd("--memory-bytes", "24M", "--cache-bytes", "100K", "--request-timeout-s", "60")
+    assert strumd.post(CHEAP).status_code == 200
+    large = {"sag_parameter": 0.9, "frequency_ratios": [1], "profile_points": 2000}  # over 8 MB, more than sockets hold
+    questions = [{**large, "profiles_at": [0.01 * n + 0.001 * which for n in range(50)]} for which in range(2)]
+    unread, = ask(strumd, questions[:1], FORCED)
+    wait_metric(strumd, "solves_total", 2)
+    wait_metric(strumd, "workers_busy", 0)  # what the solve held is free
+    assert 8e6 < strumd.metric("memory_bytes") < strumd.metric("memory_limit_bytes") == 24 << 20
+    waiting, = ask(strumd, questions[1:], FORCED)
+    wait_metric(strumd, "lane_jobs", 1)
+    assert strumd.post(CHEAP).headers["Cache-Status"] == "strum; hit"
+    assert strumd.metric("workers_busy") == 0 and strumd.metric("lane_jobs") == 1
+    unread.close()
+    assert answers_of([waiting])[0][0] == 200
+    wait_metric(strumd, "memory_bytes", 0)
+
+
+def test_a_body_without_memory_is_refused(start_strumd):
+    strumd = start_strumd("--memory-bytes", "20000")
+    refused = strumd.request("POST", "/v1/batch", data=b"[" + b" " * 30000 + b"]", headers={"Content-Type": "application/json"})
+    assert refused.status_code == 503 and refused.headers["Retry-After"] and "memory" in refused.json()["detail"]
+    wait_metric(strumd, "memory_bytes", 0)
+
+
+def test_a_batch_takes_a_slot_when_its_body_is_whole(start_strumd):
+    strumd = start_strumd("--batches", "4")
+    head = b"POST /v1/batch HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n["
+    with contextlib.ExitStack() as stack:
+        for _ in range(16):
+            stack.enter_context(strumd.connect()).sendall(head)
+        wait_metric(strumd, "requests_busy", 17)  # and who asks for the metrics
+        assert answers(post_batch(strumd, [item(CHEAP)]))
+
+
+def test_no_client_holds_all_slots_of_batches(start_strumd):
+    strumd = start_strumd("--batches", "4")
+    with contextlib.ExitStack() as stack:
+        for n in range(3):
+            stack.enter_context(open_batch(strumd, [item(endless(n), FORCED)]))
+        wait_metric(strumd, "flights", 3)
+        refused = post_batch(strumd, [item(CHEAP)])
+        assert refused.status_code == 503 and refused.headers["Retry-After"]
+        other = socket.create_connection(("127.0.0.1", strumd.port), 60, source_address=("127.0.0.2", 0))
+        body = json.dumps([item(CHEAP)]).encode()
+        other.sendall(b"POST /v1/batch HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s"
+                      % (len(body), body))
+        assert read_until(other, b'"result"').startswith(b"HTTP/1.1 200")
+        other.close()

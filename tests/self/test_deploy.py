@@ -93,7 +93,7 @@ def packages_of(program):
 
 def test_the_image_has_every_library():
     text = (DEPLOY / "container/Dockerfile").read_text()
-    second = text.split("FROM debian:12-slim\n")[1]
+    second = text.split("\nFROM ${BASE}\n")[1]
     assert set(packages_of(PROGRAM)) - {"libc6"} <= set(re.findall(r"\blib[\w.+-]+", second))
 
 
@@ -138,3 +138,28 @@ def test_the_dashboard_shows_metrics_that_there_are():
     shown = {name for expression in expressions for name in re.findall(r"strum_([a-z_]+)", expression)}
     assert shown and shown <= there
     assert len({panel["id"] for panel in dashboard["panels"]}) == len(dashboard["panels"])
+
+
+DOCKER = """#!/bin/bash
+echo "$*" >>"$0.log"
+case "$*" in
+*inspect*debian:12-slim) echo debian@sha256:%s ;;
+*inspect*) echo registry.example/strum@sha256:%s ;;
+esac
+""" % (64 * "a", 64 * "b")
+
+
+def test_the_image_is_named_by_digest(tmp_path):
+    docker, file = tmp_path / "docker", tmp_path / "kustomization.yaml"
+    docker.write_text(DOCKER)
+    docker.chmod(0o755)
+    file.write_text((DEPLOY / "kubernetes/kustomization.yaml").read_text())
+    for _ in range(2):  # a digest is replaced as a tag is
+        subprocess.run([DEPLOY / "image", "registry.example/strum:0.1.0", file], env={**os.environ, "DOCKER": str(docker)}, check=True)
+    (image,) = yaml.safe_load(file.read_text())["images"]
+    assert image == {"name": "strum", "newName": "registry.example/strum", "digest": "sha256:" + 64 * "b"}
+    build = next(line for line in (tmp_path / "docker.log").read_text().splitlines() if line.startswith("build "))
+    assert f"--build-arg BASE=debian@sha256:{64 * 'a'} " in build
+    # what the argument is for: both stages stand on it, and nothing else
+    text = (DEPLOY / "container/Dockerfile").read_text()
+    assert re.findall(r"^FROM (\S+)", text, re.M) == ["${BASE}", "${BASE}"] and text.index("ARG BASE=") < text.index("FROM ")

@@ -121,6 +121,25 @@ static double cost_us(const void *data)
     return work;
 }
 
+/* Of the mode shapes: modes times points. */
+static double answer_bytes(const void *data, const char **pointer)
+{
+    static const size_t in_plane =
+        sizeof "{\"chi\":,\"xi\":,\"tangential\":,\"normal\":,\"tension\":},";
+    static const size_t out_of_plane = sizeof "{\"chi\":,\"xi\":,\"out_of_plane\":},";
+    const request *r = data;
+    const double shared =
+        2 + (r->in.a_m > 0 ? 3 : 0); /* numbers; x_m and y_m with their keys */
+    const double values = cable_damped(&r->in) ? 3 : 1; /* {"re":, "im":} */
+    double point = 0;
+    *pointer = "/shape_points";
+    if (asks(r, STRUM_IN_PLANE))
+        point += (double)in_plane + (shared + 3 * values) * ANSWER_NUMBER_BYTES;
+    if (asks(r, STRUM_OUT_OF_PLANE))
+        point += (double)out_of_plane + (shared + values) * ANSWER_NUMBER_BYTES;
+    return (double)r->modes * (double)r->shape_points * point;
+}
+
 /* Real where the cable is undamped, {"re", "im"} where it is damped. */
 static void put_value(json_writer *json, const char *key, double _Complex value, bool damped)
 {
@@ -374,6 +393,7 @@ const endpoint catenary_frequencies = {
     .request = &request_schema,
     .query = true,
     .prepare = prepare,
+    .answer_bytes = answer_bytes,
     .cost_us = cost_us,
     .answer = answer_modes,
 };

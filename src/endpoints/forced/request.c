@@ -190,6 +190,31 @@ void forced_prepare(void *data, schema_arena *arena, problem *p)
     r->highest *= multiple;
 }
 
+/* Of curve and profiles: the larger of the two decides. */
+double forced_answer_bytes(const void *data, const char **pointer)
+{
+    static const size_t curve_keys =
+        sizeof "{\"frequency_ratio\":,\"max_dynamic_tension\":,\"at_chi\":},";
+    static const size_t point_keys =
+        sizeof "{\"chi\":,\"xi\":,\"tangential\":,\"normal\":,\"out_of_plane\":,\"tension\":},";
+    const forced_request *r = data;
+    const bool phases = cable_damped(&r->in) && r->harmonics.count == 0;
+    const double each = phases ? 3 : 1; /* a phase with its key */
+    const double numbers = 2 + (r->in.a_m > 0 ? 3 : 0) + (r->in_plane ? 3 * each : 0) +
+                           (r->out_of_plane ? each : 0);
+    const double points =
+        r->profile_chi.count > 0 ? (double)r->profile_chi.count : (double)r->profile_points;
+    /* as if no natural frequency were among them, where a profile has no points */
+    const double profiles = (double)r->profiles_at.count * points *
+                            ((double)point_keys + numbers * ANSWER_NUMBER_BYTES);
+    const double curve =
+        forced_frequency_count(r) * ((double)curve_keys + 2 * ANSWER_NUMBER_BYTES);
+    *pointer = profiles > curve                ? "/profiles_at"
+               : r->frequency_ratios.count > 0 ? "/frequency_ratios"
+                                               : "/points";
+    return profiles + curve;
+}
+
 /* About how many modes of a plane lie below a frequency w in sqrt(g/a): the phase of waves across
  * the cable, and of those along an elastic one, over pi. With c = cosh chi, in units of a,
  *     wave number across = w sqrt(m_n (1 + kappa_n c) c),

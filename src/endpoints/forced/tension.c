@@ -11,6 +11,7 @@ const endpoint forced_tension = {
     .request = &forced_request_schema,
     .query = true,
     .prepare = forced_prepare,
+    .answer_bytes = forced_answer_bytes,
     .cost_us = forced_cost_us,
     .answer = forced_answer,
 };

@@ -340,6 +340,7 @@ const endpoint inclined_modes = {
     .request = &inclined_schema,
     .query = true,
     .prepare = inclined_prepare,
+    .answer_bytes = inclined_answer_bytes,
     .cost_us = inclined_cost_us,
     .answer = answer_modes,
 };

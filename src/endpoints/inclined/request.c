@@ -191,6 +191,18 @@ strum_inclined_params inclined_params(const inclined_request *r, int model)
                                    .statics = &r->at_rest};
 }
 
+double inclined_answer_bytes(const void *data, const char **pointer)
+{
+    static const size_t keys =
+        sizeof "{\"s\":,\"transverse\":,\"longitudinal\":,\"tension\":},";
+    const inclined_request *r = data;
+    const double numbers =
+        4 + (r->tension > 0 ? 3 : 0); /* s_m, tension_N_per_m with their keys */
+    *pointer = "/shape_points";
+    return (double)r->modes * (double)r->shape_points *
+           ((double)keys + numbers * ANSWER_NUMBER_BYTES);
+}
+
 double inclined_cost_us(const void *data)
 {
     const inclined_request *r = data;

@@ -35,6 +35,7 @@ extern const char *const inclined_models[];
 
 void inclined_prepare(void *request, schema_arena *arena, problem *p);
 double inclined_cost_us(const void *request);
+double inclined_answer_bytes(const void *request, const char **pointer);
 /* What the library is asked for one of the models; refers to `r`. */
 strum_inclined_params inclined_params(const inclined_request *r, int model);
 

@@ -48,6 +48,7 @@ typedef struct runner {
 typedef struct batch {
     stream stream;
     service *service;
+    unsigned client;
     strbuf body;
     pthread_mutex_t lock; /* of what follows */
     batch_reader items;
@@ -165,7 +166,7 @@ static void solve(slot *s, evaluation *a)
         stream_unref(&b->stream);
     /* A long one waits for its turn among the long ones, and the next item begins. */
     if (turn == ROLE_LEADER && evaluation_cost_us(a) >= THREAD_POOL_LONG_US) {
-        solve_item_later(b->service, a, &key, lead);
+        solve_item_later(b->service, a, &key, lead, b->client);
         return;
     }
     if (turn == ROLE_LEADER)
@@ -353,6 +354,7 @@ static batch *batch_new(connection *p)
     b->stream.free = free_batch;
     stream_init(&b->stream, p);
     b->service = s;
+    b->client = p->request->client;
     /* The items point into it, for longer than the request may last. */
     b->body = p->request->body;
     p->request->body = (strbuf){0};
@@ -360,13 +362,30 @@ static batch *batch_new(connection *p)
     const size_t workers = (size_t)thread_pool_count(s->thread_pool).workers;
     b->runner_count = workers < RUNNERS ? workers : RUNNERS;
     for (size_t i = 0; i < b->runner_count; i++)
-        b->runners[i] = (runner){.job = {.work = run, .cost_us = TURN_US}, .batch = b};
+        b->runners[i] = (runner){.job = {.work = run,
+                                         .cost_us = TURN_US,
+                                         .client = p->request->client,
+                                         .bytes = WINDOW_BYTES},
+                                 .batch = b};
     return b;
+}
+
+/* Counts a batch whose body has come; returns false beyond the limit, of which one client has at
+ * most three quarters. */
+static bool count_batch(connection *p)
+{
+    service *s = p->service;
+    const int64_t all = s->settings->batches, one = all - all / 4;
+    p->request->counted = true; /* until dispatch_end */
+    const int64_t before = atomic_fetch_add(&s->batches, 1);
+    return atomic_fetch_add(&s->batches_of[p->request->client], 1) < one && before < all;
 }
 
 enum MHD_Result batch_answer(connection *p)
 {
     const int64_t limit = p->service->settings->batch_items;
+    if (!count_batch(p))
+        return reply_refusal(p, 503, "too many batches are under way; try again later");
     batch *b = batch_new(p);
     problem why = {0};
     if (!b)

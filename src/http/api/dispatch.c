@@ -149,11 +149,13 @@ static uint64_t body_limit(const connection *p)
     return (uint64_t)(p->request->route.batch ? set->batch_body_bytes : set->body_bytes);
 }
 
-/* Counts a batch; returns false beyond the limit. Each keeps its body until its last item. */
-static bool count_batch(connection *p)
+/* A token stands for its client wherever it asks from. */
+static unsigned who_asks(const connection *p, const headers *h)
 {
-    p->request->counted = true; /* until dispatch_end */
-    return atomic_fetch_add(&p->service->batches, 1) < p->service->settings->batches;
+    const union MHD_ConnectionInfo *info =
+        MHD_get_connection_info(p->mhd, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
+    return client_of(info ? info->client_addr : NULL,
+                     p->service->access ? h->authorization : NULL);
 }
 
 #define READS (METHOD_GET | METHOD_HEAD)
@@ -237,10 +239,6 @@ static void check(connection *p, const headers *h)
                MHD_get_connection_values(p->mhd, MHD_GET_ARGUMENT_KIND, NULL, NULL)) {
         problem_set(&r->refusal, 400, "the fields of %s stand in its body, not in the URL",
                     r->method == METHOD_POST ? "POST" : "QUERY");
-    } else if (r->method == METHOD_POST && r->route.batch && !count_batch(p)) {
-        problem_set(&r->refusal, 503, "%lld batches are under way; try again later",
-                    (long long)p->service->settings->batches);
-        r->close = true;
     }
 }
 
@@ -269,6 +267,7 @@ enum MHD_Result dispatch_begin(connection *p, const char *url, const char *verb,
     MHD_get_connection_values_n(p->mhd, MHD_HEADER_KIND, read_header, &h);
     r->is_lines =
         r->route.batch && h.content_type && is_type(h.content_type, "application/x-ndjson");
+    r->client = who_asks(p, &h);
     check_framing(&h, r, version);
     if (!r->refusal.status)
         check_browser(p, &h);
@@ -295,8 +294,14 @@ enum MHD_Result dispatch_body(connection *p, const char *bytes, size_t size)
     }
     if (r->body_seen > limit + BODY_DRAIN)
         return MHD_NO;
-    if (!r->refusal.status)
+    if (!r->refusal.status && !memory_take_body(&p->service->memory, size)) {
+        problem_set(&r->refusal, 503, "no memory is free for this body; try again later");
+        r->close = true;
+    }
+    if (!r->refusal.status) {
+        r->body_counted += size;
         strbuf_add(&r->body, bytes, size);
+    }
     return MHD_YES;
 }
 
@@ -321,7 +326,11 @@ void dispatch_end(connection *p)
     /* First: from here on the reaper leaves the request alone. */
     connection_enter(p, CONNECTION_IDLE, set->idle_timeout_s + set->request_timeout_s);
     request_release(r);
-    if (r->counted)
+    memory_give_body(&p->service->memory, r->body_counted);
+    r->body_counted = 0;
+    if (r->counted) {
         atomic_fetch_sub(&p->service->batches, 1);
+        atomic_fetch_sub(&p->service->batches_of[r->client], 1);
+    }
     r->counted = false;
 }

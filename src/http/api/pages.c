@@ -76,7 +76,9 @@ enum MHD_Result page_metrics(connection *p)
     metrics_snapshot now = {.cache = cache_count(s->cache),
                             .pool = thread_pool_count(s->thread_pool),
                             .has_store = s->store,
-                            .busy = connections_busy(p->all)};
+                            .busy = connections_busy(p->all),
+                            .memory = memory_used(&s->memory),
+                            .memory_limit = s->memory.limit};
     if (now.has_store)
         now.store = store_count(s->store);
     metrics_write(s->metrics, &now, &body);

@@ -24,7 +24,9 @@ typedef struct request {
     bool is_lines;            /* the body is application/x-ndjson */
     bool counted;             /* among service.batches */
     bool given_id;            /* the client gave it: it is always returned */
+    unsigned client;          /* who asks (service/client.h) */
     strbuf body;
+    size_t body_counted; /* bytes counted by memory_take_body */
     uint64_t body_seen; /* bytes received, kept or not */
     problem refusal;    /* status 0: none so far */
     /* the way to an answer (solve_handler.c) */

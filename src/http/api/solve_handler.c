@@ -225,14 +225,19 @@ static enum MHD_Result add_pair(void *cls, enum MHD_ValueKind kind, const char *
 }
 
 /* Takes over `a` (NULL: only look it up in the store). Returns NULL when memory ran out. */
-static task *task_new(service *s, evaluation *a, const cache_key *key, flight *f)
+static task *task_new(service *s, evaluation *a, const cache_key *key, flight *f,
+                      unsigned client)
 {
     task *t = malloc(sizeof *t);
     if (!t) {
         evaluation_free(a);
         return NULL;
     }
-    *t = (task){.job = {.work = task_work, .cost_us = a ? evaluation_cost_us(a) : 0},
+    const double cost_us = a ? evaluation_cost_us(a) : 0;
+    *t = (task){.job = {.work = task_work,
+                        .cost_us = cost_us,
+                        .client = client,
+                        .bytes = memory_of_solve(cost_us)},
                 .service = s,
                 .asking = a,
                 .key = *key,
@@ -246,7 +251,7 @@ static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key
                                    flight *f)
 {
     service *s = p->service;
-    task *t = task_new(s, a, key, f);
+    task *t = task_new(s, a, key, f, p->request->client);
     if (t && thread_pool_queue(s->thread_pool, &t->job))
         return wait_outcome(p);
     entry *full = t ? unavailable(key, "the queue is full; try again later") : NULL;
@@ -258,9 +263,10 @@ static enum MHD_Result queue_solve(connection *p, evaluation *a, const cache_key
     return reply_outcome(p);
 }
 
-void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f)
+void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f,
+                      unsigned client)
 {
-    task *t = task_new(s, a, key, f);
+    task *t = task_new(s, a, key, f, client);
     if (t)
         thread_pool_queue_batch(s->thread_pool, &t->job);
     else
@@ -299,7 +305,8 @@ static enum MHD_Result solve(connection *p, evaluation *a)
     waiter *w = wants_events(r) ? events_open(p) : &r->waiter;
     if (w && key_of_evaluation(a, &r->canonical, &key))
         turn = cache_acquire(s->cache, &key, w, &hit, &lead);
-    if (turn == ROLE_LEADER && is_costly(s, a))
+    /* Nor is anything solved on this thread while memory is short: it waits with the others. */
+    if (turn == ROLE_LEADER && (is_costly(s, a) || memory_used(&s->memory) > s->memory.limit))
         return queue_solve(p, a, &key, lead);
     if (turn == ROLE_LEADER)
         solve_flight(s, a, &key, lead, 0);

@@ -27,7 +27,8 @@ void solve_look_in(struct connection *p, int64_t now_ms);
 void solve_flight(service *s, const evaluation *a, const cache_key *key, flight *f,
                   double given_us);
 /* Queues the flight of a batch's long item for a worker; takes over `a`. */
-void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f);
+void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f,
+                      unsigned client);
 /* Returns a refusal as an entry, for all requests that wait for the same answer; NULL when memory
  * ran out. */
 entry *refusal_entry(const cache_key *key, const problem *why);

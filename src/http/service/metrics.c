@@ -209,6 +209,10 @@ void metrics_write(const metrics *m, const metrics_snapshot *now, strbuf *out)
     write_lanes(&w, out);
     value(out, "queue_refused_total", "counter", "Requests refused for a full queue.",
           w.refused);
+    value(out, "memory_bytes", "gauge",
+          "Memory of requests under way: bodies, solves (estimated), answers not sent yet.",
+          now->memory);
+    value(out, "memory_limit_bytes", "gauge", "Maximum of it.", now->memory_limit);
     value(out, "requests_busy", "gauge", "Requests under way.", now->busy);
     value(out, "log_lines_dropped_total", "counter",
           "Lines of the log dropped, since its reader did not take them in time.",

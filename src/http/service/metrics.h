@@ -19,6 +19,7 @@ typedef struct metrics_snapshot {
     bool has_store;
     store_counters store; /* only if has_store */
     size_t busy;          /* requests under way */
+    size_t memory, memory_limit;
 } metrics_snapshot;
 
 /* Counters for `routes` routes; `path` gives the label of each. Returns NULL without memory. */

@@ -9,6 +9,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "endpoints/endpoint.h"
 #include "http/service/address.h"
 #include "http/service/clock.h"
 #include "http/service/log.h"
@@ -60,6 +61,7 @@ bool service_start(service *s, const settings *set, size_t routes,
                    const char *(*path)(size_t index), char fault[256])
 {
     *s = (service){.settings = set};
+    evaluation_limit_answers((size_t)set->answer_bytes);
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     const int workers = set->workers ? (int)set->workers : cores > 1 ? (int)cores : 1;
     const size_t depth =
@@ -70,11 +72,16 @@ bool service_start(service *s, const settings *set, size_t routes,
         return false;
     if (getrandom(&s->id_prefix, sizeof s->id_prefix, GRND_NONBLOCK) < 0)
         s->id_prefix = (uint32_t)clock_us();
+    s->memory.limit = set->memory_bytes ? (size_t)set->memory_bytes : memory_default();
     snprintf(fault, 256, "out of memory or threads");
     return (s->metrics = metrics_new(routes, path)) &&
-           (s->cache = cache_new((size_t)set->cache_bytes)) &&
-           (s->thread_pool = thread_pool_new(&(thread_pool_options){
-                .workers = workers, .depth = depth, .cheap_us = set->cheap_us}));
+           (s->cache = cache_new((size_t)set->cache_bytes)) && (s->memory.cache = s->cache) &&
+           (s->thread_pool = thread_pool_new(&(thread_pool_options){.workers = workers,
+                                                                    .depth = depth,
+                                                                    .cheap_us = set->cheap_us,
+                                                                    .begin = memory_begin_solve,
+                                                                    .end = memory_end_solve,
+                                                                    .memory = &s->memory}));
 }
 
 static void add_fault(strbuf *faults, const char *fault)

@@ -7,6 +7,7 @@
 
 #include "cache/store.h"
 #include "http/service/access.h"
+#include "http/service/memory.h"
 #include "http/service/metrics.h"
 #include "http/service/settings.h"
 #include "http/service/thread_pool.h"
@@ -21,11 +22,13 @@ typedef struct service {
     access_list *access; /* NULL: no token is needed */
     thread_pool *thread_pool;
     metrics *metrics;
+    memory_account memory;
     /* Set by the layers above: */
     bool local;                     /* only this machine can reach the listening socket */
     const struct page *pages;       /* the paths served beside the endpoints */
     struct MHD_Response *no_memory; /* sent when no other response can be made */
     atomic_int batches;             /* under way */
+    atomic_int batches_of[CLIENTS]; /* of each client */
     uint32_t id_prefix;             /* of request ids, so that two runs' ids differ */
     atomic_uint id_next;
     atomic_uint_fast64_t logged; /* successful requests, counted for log_sample */

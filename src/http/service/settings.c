@@ -40,6 +40,11 @@ const setting settings_table[] = {
      "0: none is"},
     {"cache_bytes", SETTING_BYTES, AT(cache_bytes), 0, 1e12, "64M",
      "maximum memory for stored answers, their bookkeeping included; 0 stores none"},
+    {"memory_bytes", SETTING_BYTES, AT(memory_bytes), 0, 1e15, "0",
+     "maximum memory of requests under way, beside the cache: bodies, solves (estimated) and "
+     "answers not sent yet; "
+     "solves beyond it wait, then get 503; 0: half of the smallest memory.max of the control "
+     "groups, or of the machine"},
     {"store", SETTING_TEXT, AT(store), 0, 0, "",
      "address:port or unix:/path of a Redis server, as a second level of stored answers that "
      "several daemons share; empty: none"},
@@ -53,6 +58,10 @@ const setting settings_table[] = {
      "can write to the store can forge an answer"},
     {"store_password_file", SETTING_TEXT, AT(store_password_file), 0, 0, "",
      "file of the store's password, which is sent unencrypted"},
+    {"answer_bytes", SETTING_BYTES, AT(answer_bytes), 4096, 1 << 30, "16M",
+     "maximum size of an answer, also of a batch's item; a request for a larger one gets 400, "
+     "or "
+     "422 where only solving tells"},
     {"body_bytes", SETTING_BYTES, AT(body_bytes), 256, 64 << 20, "64K",
      "maximum size of a request body; a larger one gets 413"},
     {"json_depth", SETTING_COUNT, AT(json_depth), 1, 256, "16",

@@ -24,7 +24,7 @@ typedef struct settings {
     char *store, *store_secret_file, *store_password_file;
     double store_timeout_ms;
     int64_t store_expiry_s;
-    int64_t cache_bytes, body_bytes, json_depth, json_values;
+    int64_t cache_bytes, memory_bytes, answer_bytes, body_bytes, json_depth, json_values;
     int64_t batches, batch_items, batch_body_bytes;
     int64_t connections, connection_memory_bytes;
     double idle_timeout_s, request_timeout_s, solve_timeout_s, drain_timeout_s;

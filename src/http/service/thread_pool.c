@@ -18,15 +18,20 @@
 
 /* A lane with work may be passed over so many times in a row. */
 #define PATIENCE 3
+/* While a job waits for memory. */
+#define MEMORY_PERIOD_MS 100
 
+/* Jobs by their turns: that of a job is its client's last one, or the lane's present, plus its cost
+ * (start-time fair queueing: Goyal, Vin and Cheng 1996, with finish tags). */
 typedef struct job_queue {
-    job *first, **last;
+    job *first, *last;
+    double now, turn_of[CLIENTS];
     int passed; /* times passed over while a job waited that might have begun */
 } job_queue;
 
 /* Requests refused for want of a place, since when. */
 typedef struct queue_limit {
-    size_t queued;
+    size_t queued, queued_of[CLIENTS];
     int64_t full_since_ms;
 } queue_limit;
 
@@ -38,6 +43,7 @@ struct thread_pool {
     queue_limit cheap, costly; /* LANE_CHEAP; LANE_COSTLY and LANE_LONG */
     size_t busy, longs;        /* workers for all lanes at work; on long jobs */
     bool cheap_busy, ending;
+    bool starved; /* the last job looked at had no memory to begin */
     thread_pool_counters count;
     pthread_t threads[];
 };
@@ -57,6 +63,29 @@ static bool may_begin(const thread_pool *c, thread_pool_lane lane)
     return c->lanes[lane].first && (!is_long(lane) || c->longs < long_limit(c));
 }
 
+/* Counts the memory of a lane's first job, which is taken next; false: there is none for it now. */
+static bool has_memory(thread_pool *c, thread_pool_lane lane)
+{
+    const thread_pool_options *o = &c->options;
+    c->starved = o->begin && !o->begin(o->memory, c->lanes[lane].first->bytes);
+    return !c->starved;
+}
+
+/* Waits for a signal, or a while if all that keeps a job from beginning is memory. */
+static void wait_for_work(thread_pool *c, pthread_cond_t *work)
+{
+    if (!c->starved) {
+        pthread_cond_wait(work, &c->lock);
+        return;
+    }
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += MEMORY_PERIOD_MS * 1000000;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(work, &c->lock, &until);
+}
+
 /* ---- the queues ---- */
 
 static queue_limit *limit_of(thread_pool *c, thread_pool_lane lane)
@@ -66,12 +95,25 @@ static queue_limit *limit_of(thread_pool *c, thread_pool_lane lane)
                                                       : NULL;
 }
 
+static void insert(job_queue *q, job *j)
+{
+    job **place = &q->first;
+    if (q->first && q->last->turn <= j->turn)
+        place = &q->last->next;
+    while (*place && (*place)->turn <= j->turn)
+        place = &(*place)->next;
+    j->next = *place;
+    *place = j;
+    if (!j->next)
+        q->last = j;
+}
+
 static void add(thread_pool *c, job *j)
 {
     job_queue *q = &c->lanes[j->lane];
-    j->next = NULL;
-    *q->last = j;
-    q->last = &j->next;
+    j->turn = fmax(q->now, q->turn_of[j->client]) + j->cost_us;
+    q->turn_of[j->client] = j->turn;
+    insert(q, j);
     c->count.queued[j->lane]++;
     c->count.backlog_us[j->lane] += j->cost_us;
     /* Both: the one for cheap jobs may be at work on a longer one. */
@@ -85,14 +127,14 @@ static job *take_from(thread_pool *c, thread_pool_lane lane)
     job_queue *q = &c->lanes[lane];
     job *j = q->first;
     q->first = j->next;
-    if (!q->first)
-        q->last = &q->first;
+    q->now = fmax(q->now, j->turn - j->cost_us);
     c->count.queued[lane]--;
     /* Sums of rounded numbers: nothing is left of them when nothing waits. */
     c->count.backlog_us[lane] = q->first ? fmax(c->count.backlog_us[lane] - j->cost_us, 0) : 0;
     queue_limit *limit = limit_of(c, lane);
     if (limit) {
         limit->queued--;
+        limit->queued_of[j->client]--;
         /* A single free place does not count: under a lasting overload it is taken at once. */
         if (limit->queued <= c->options.depth / 2)
             limit->full_since_ms = 0;
@@ -108,7 +150,7 @@ static job *take(thread_pool *c)
         if (may_begin(c, (thread_pool_lane)i) &&
             (next == LANES || c->lanes[next].passed < PATIENCE))
             next = i;
-    if (next == LANES)
+    if (next == LANES || !has_memory(c, (thread_pool_lane)next))
         return NULL;
     for (int i = next + 1; i < LANES; i++)
         c->lanes[i].passed += may_begin(c, (thread_pool_lane)i);
@@ -122,6 +164,7 @@ static job *take(thread_pool *c)
 static void work_on(thread_pool *c, job *j)
 {
     const bool takes_long = is_long(j->lane);
+    const size_t bytes = j->bytes;
     c->longs += takes_long;
     c->count.working++;
     pthread_mutex_unlock(&c->lock);
@@ -130,6 +173,8 @@ static void work_on(thread_pool *c, job *j)
     c->count.working--;
     c->count.done++;
     c->longs -= takes_long;
+    if (c->options.end)
+        c->options.end(c->options.memory, bytes);
     /* A worker that waits may now begin a long one. */
     if (takes_long && (c->lanes[LANE_LONG].first || c->lanes[LANE_BATCH_LONG].first))
         pthread_cond_signal(&c->work);
@@ -163,7 +208,7 @@ static void *worker(void *argument)
         } else if (c->ending && !has_work(c)) {
             break;
         } else {
-            pthread_cond_wait(&c->work, &c->lock);
+            wait_for_work(c, &c->work);
         }
     }
     pthread_cond_broadcast(&c->work);
@@ -177,13 +222,13 @@ static void *cheap_worker(void *argument)
     step_back(CHEAP_WORKER_NICE);
     pthread_mutex_lock(&c->lock);
     for (;;) {
-        c->cheap_busy = c->lanes[LANE_CHEAP].first;
+        c->cheap_busy = c->lanes[LANE_CHEAP].first && has_memory(c, LANE_CHEAP);
         if (c->cheap_busy)
             work_on(c, take_from(c, LANE_CHEAP));
-        else if (c->ending)
+        else if (c->ending && !c->lanes[LANE_CHEAP].first)
             break;
         else
-            pthread_cond_wait(&c->cheap_work, &c->lock);
+            wait_for_work(c, &c->cheap_work);
     }
     pthread_mutex_unlock(&c->lock);
     return NULL;
@@ -202,8 +247,6 @@ thread_pool *thread_pool_new(const thread_pool_options *options)
     thread_pool *c = calloc(1, sizeof *c + ((size_t)options->workers + 1) * sizeof *c->threads);
     if (!c)
         return NULL;
-    for (int i = 0; i < LANES; i++)
-        c->lanes[i].last = &c->lanes[i].first;
     c->options = *options;
     c->count.depth = options->depth;
     pthread_mutex_init(&c->lock, NULL);
@@ -244,6 +287,16 @@ void thread_pool_free(thread_pool *c)
 
 /* ---- from outside ---- */
 
+/* One client may take so many times what it leaves free, so that there are places for others
+ * (dynamic thresholds: Choudhury and Hahne 1998). */
+#define PLACES_FOR_ONE_LEFT 4
+
+static bool has_place(const queue_limit *limit, size_t depth, unsigned client)
+{
+    return limit->queued < depth &&
+           limit->queued_of[client] <= PLACES_FOR_ONE_LEFT * (depth - limit->queued);
+}
+
 bool thread_pool_queue(thread_pool *c, job *j)
 {
     pthread_mutex_lock(&c->lock);
@@ -254,9 +307,10 @@ bool thread_pool_queue(thread_pool *c, job *j)
     /* An idle worker takes a job at once: it does not wait in the queue. */
     const size_t idle =
         (size_t)c->options.workers - c->busy + (j->lane == LANE_CHEAP && !c->cheap_busy);
-    const bool room = limit->queued < c->options.depth + idle;
+    const bool room = has_place(limit, c->options.depth + idle, j->client);
     if (room) {
         limit->queued++;
+        limit->queued_of[j->client]++;
         add(c, j);
     } else {
         c->count.refused++;

@@ -3,7 +3,8 @@
  * Worker threads and the bounded queues before them, in lanes by estimated cost.
  *
  * One worker more than asked for takes cheap jobs only, so that these never wait for costly
- * ones. Long jobs (THREAD_POOL_LONG_US) occupy at most workers - 1 workers, at least one.
+ * ones. In a lane clients take turns, so that each has an equal share of the work, and one client
+ * leaves places in the queue to others. Long jobs (THREAD_POOL_LONG_US) occupy at most workers - 1 workers, at least one.
  */
 #ifndef HTTP_SERVICE_THREAD_POOL_H
 #define HTTP_SERVICE_THREAD_POOL_H
@@ -11,6 +12,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "http/service/client.h"
 
 /* Jobs estimated to take at least this long may not occupy every worker. */
 #define THREAD_POOL_LONG_US 1e5
@@ -28,8 +31,11 @@ typedef enum thread_pool_lane {
 /* A job, embedded in the object it works on; the caller keeps it until `work` is called. */
 typedef struct job {
     void (*work)(struct job *j);
-    double cost_us; /* estimate */
+    double cost_us;  /* estimate */
+    size_t bytes;    /* of memory while it is at work, estimate */
+    unsigned client; /* below CLIENTS */
     /* the rest is the pool's */
+    double turn;
     struct job *next;
     thread_pool_lane lane;
 } job;
@@ -40,6 +46,11 @@ typedef struct thread_pool_options {
     int workers;     /* at least 1; one more is started for cheap jobs if cheap_us > 0 */
     size_t depth;    /* maximum number of jobs waiting, of cheap and of other requests each */
     double cheap_us; /* jobs estimated to take less are cheap */
+    /* May be NULL: whether a job of so many bytes may begin, asked again ten times a second while
+     * it may not; and its end. With `memory`, under the lock of the pool: short. */
+    bool (*begin)(void *memory, size_t bytes);
+    void (*end)(void *memory, size_t bytes);
+    void *memory;
 } thread_pool_options;
 
 /* Returns NULL when memory or a thread cannot be had. */

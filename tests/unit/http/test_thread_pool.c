@@ -33,7 +33,8 @@ enum { CHEAP = 1, COSTLY = 5000, LONG = 200000 };
 
 static thread_pool *pool_of(int workers, size_t depth)
 {
-    return thread_pool_new(&(thread_pool_options){workers, depth, CHEAP_US});
+    return thread_pool_new(
+        &(thread_pool_options){.workers = workers, .depth = depth, .cheap_us = CHEAP_US});
 }
 
 static void gated_init(gated *g, double cost_us)
@@ -160,6 +161,48 @@ static void a_lane_passed_over_three_times_comes_next(void **state)
     assert_string_equal(noted, "rrrbrrrbrrb");
 }
 
+static void clients_take_turns(void **state)
+{
+    (void)state;
+    gated first;
+    noting jobs[6];
+    thread_pool *c = pool_of(1, 100);
+    noted_count = 0;
+    assert_true(gated_give(c, &first, COSTLY));
+    sem_wait(&first.begun);
+    for (int i = 0; i < 6; i++) {
+        jobs[i] = (noting){.job = {.work = note, .cost_us = COSTLY, .client = i < 4 ? 1 : 2},
+                           .letter = i < 4 ? 'a' : 'b'};
+        assert_true(thread_pool_queue(c, &jobs[i].job));
+    }
+    sem_post(&first.let);
+    thread_pool_free(c);
+    noted[noted_count] = '\0';
+    assert_string_equal(noted, "ababaa");
+}
+
+static void a_client_leaves_places_to_others(void **state)
+{
+    (void)state;
+    enum { DEPTH = 20 };
+    gated first;
+    static noting jobs[DEPTH + 1];
+    thread_pool *c = pool_of(1, DEPTH);
+    noted_count = 0;
+    assert_true(gated_give(c, &first, COSTLY));
+    sem_wait(&first.begun);
+    int places = 0;
+    for (int i = 0; i <= DEPTH; i++) {
+        jobs[i] = (noting){.job = {.work = note, .cost_us = COSTLY, .client = 1}};
+        places += thread_pool_queue(c, &jobs[i].job);
+    }
+    assert_int_equal(places, 17); /* the most with n - 1 <= 4 (20 - (n - 1)) */
+    noting other = {.job = {.work = note, .cost_us = COSTLY, .client = 2}};
+    assert_true(thread_pool_queue(c, &other.job));
+    sem_post(&first.let);
+    thread_pool_free(c);
+}
+
 static void a_batch_uses_every_worker(void **state)
 {
     (void)state;
@@ -231,6 +274,49 @@ static void cheap_jobs_wait_for_no_other(void **state)
     thread_pool_free(c);
 }
 
+/* Memory for one job at a time. */
+static atomic_int jobs_with_memory;
+
+static bool begin_one(void *memory, size_t bytes)
+{
+    assert_ptr_equal(memory, &jobs_with_memory);
+    assert_int_equal(bytes, 7);
+    int none = 0;
+    return atomic_compare_exchange_strong(&jobs_with_memory, &none, 1);
+}
+
+static void end_one(void *memory, size_t bytes)
+{
+    (void)memory;
+    (void)bytes;
+    jobs_with_memory = 0;
+}
+
+static void a_job_without_memory_waits(void **state)
+{
+    (void)state;
+    gated jobs[2];
+    thread_pool *c = thread_pool_new(&(thread_pool_options){.workers = 2,
+                                                            .depth = 2,
+                                                            .begin = begin_one,
+                                                            .end = end_one,
+                                                            .memory = &jobs_with_memory});
+    jobs_with_memory = 1; /* others have it */
+    for (int i = 0; i < 2; i++) {
+        gated_init(&jobs[i], COSTLY);
+        jobs[i].job.bytes = 7;
+        assert_true(thread_pool_queue(c, &jobs[i].job));
+    }
+    assert_int_equal(thread_pool_count(c).working, 0);
+    jobs_with_memory = 0; /* nobody signals this */
+    sem_wait(&jobs[0].begun);
+    assert_int_equal(thread_pool_count(c).working, 1);
+    sem_post(&jobs[0].let);
+    sem_wait(&jobs[1].begun);
+    sem_post(&jobs[1].let);
+    thread_pool_free(c);
+}
+
 static void no_worker_is_kept_where_nothing_is_cheap(void **state)
 {
     (void)state;
@@ -251,9 +337,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_queue_is_bounded_and_in_order),
         cmocka_unit_test(a_lane_passed_over_three_times_comes_next),
+        cmocka_unit_test(clients_take_turns),
+        cmocka_unit_test(a_client_leaves_places_to_others),
         cmocka_unit_test(a_batch_uses_every_worker),
         cmocka_unit_test(long_jobs_leave_a_worker_to_others),
         cmocka_unit_test(cheap_jobs_wait_for_no_other),
+        cmocka_unit_test(a_job_without_memory_waits),
         cmocka_unit_test(no_worker_is_kept_where_nothing_is_cheap),
         cmocka_unit_test(many_workers_do_every_job_once),
     };

@@ -218,16 +218,36 @@ static void problems_are_bounded(void **state)
     problem_clear(&p);
 }
 
+/* A text stops at the bytes that it may have, and says why. */
+static void a_text_has_a_limit(void **state)
+{
+    (void)state;
+    strbuf out = {.most = 10};
+    strbuf_add(&out, "0123456789", 10);
+    assert_false(out.failed);
+    strbuf_add(&out, "", 0);
+    assert_false(out.failed);
+    strbuf_add(&out, "x", 1);
+    assert_true(out.failed && out.full);
+    assert_int_equal(out.size, 10);
+    strbuf_clear(&out);
+    out.most = 10;
+    strbuf_format(&out, "%d", 123456789);
+    assert_false(out.failed);
+    strbuf_format(&out, "%d", 10);
+    assert_true(out.failed && out.full);
+    assert_string_equal(out.data, "123456789");
+    strbuf_clear(&out);
+    assert_false(out.full);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_grows),
-        cmocka_unit_test(impossible_sizes_fail),
-        cmocka_unit_test(commas_and_nesting),
-        cmocka_unit_test(strings_are_escaped),
-        cmocka_unit_test(non_finite_numbers_fail),
-        cmocka_unit_test(every_character_is_known),
-        cmocka_unit_test(problems_are_gathered),
+        cmocka_unit_test(a_text_has_a_limit),       cmocka_unit_test(text_grows),
+        cmocka_unit_test(impossible_sizes_fail),    cmocka_unit_test(commas_and_nesting),
+        cmocka_unit_test(strings_are_escaped),      cmocka_unit_test(non_finite_numbers_fail),
+        cmocka_unit_test(every_character_is_known), cmocka_unit_test(problems_are_gathered),
         cmocka_unit_test(problems_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
