@@ -271,26 +271,10 @@ static void sample(const strum_inclined *m, const inclined_wave *wave, double x,
     out->tension = -kl * kl * v;
 }
 
-const inclined_model inclined_airy = {
-    .name = "airy",
-    .expansion = true,
-    .has_longitudinal = true,
-    APPROXIMATION,
-    .work_us = work_us,
-    .roots = roots,
-    .function = characteristic,
-    .sample = sample,
-    .wants_phase = true,
-};
+#define AIRY                                                                                   \
+    APPROXIMATION, .expansion = true, .has_longitudinal = true, .work_us = work_us,            \
+                   .roots = roots, .function = characteristic, .sample = sample,               \
+                   .wants_phase = true
 
-const inclined_model inclined_airy_tangent = {
-    .name = "airy, tangent at s_a",
-    .expansion = true,
-    .has_longitudinal = true,
-    APPROXIMATION,
-    .work_us = work_us,
-    .roots = roots,
-    .function = characteristic,
-    .sample = sample,
-    .wants_phase = true,
-};
+const inclined_model inclined_airy = {.name = "airy", AIRY};
+const inclined_model inclined_airy_tangent = {.name = "airy, tangent at s_a", AIRY};

@@ -138,24 +138,9 @@ static void sample(const strum_inclined *m, const inclined_wave *wave, double x,
     out->tension = kl * kl * (twice + 1.75 * e) / slope; /* (38) */
 }
 
-const inclined_model inclined_asymptotic = {
-    .name = "asymptotic",
-    .expansion = true,
-    .has_longitudinal = false,
-    APPROXIMATION,
-    .work_us = work_us,
-    .roots = roots,
-    .function = analytic,
-    .sample = sample,
-};
+#define CLOSED_FORM                                                                            \
+    APPROXIMATION, .work_us = work_us, .roots = roots, .function = analytic, .sample = sample
 
-const inclined_model inclined_irvine = {
-    .name = "irvine",
-    .expansion = false,
-    .has_longitudinal = false,
-    APPROXIMATION,
-    .work_us = work_us,
-    .roots = roots,
-    .function = analytic,
-    .sample = sample,
-};
+const inclined_model inclined_asymptotic = {
+    .name = "asymptotic", .expansion = true, CLOSED_FORM};
+const inclined_model inclined_irvine = {.name = "irvine", CLOSED_FORM};

@@ -30,80 +30,50 @@ typedef struct cable_input {
  * and quotients of two of them stay finite. */
 #define CABLE_LEAST 1e-9
 
-#define CABLE_FIELDS                                                                           \
-    {FIELD_AT(FIELD_NUMBER, cable_input, rise_to_span),                                        \
-     .unit = "1",                                                                              \
-     .min = -1e4,                                                                              \
-     .max = 1e4,                                                                               \
-     .flags = FIELD_DEFAULT,                                                                   \
-     .help = "h/b: height of end 2 above end 1 over the span"},                                \
-        {FIELD_AT(FIELD_NUMBER, cable_input, sag_parameter),                                   \
-         .unit = "1",                                                                          \
-         .min = 0,                                                                             \
-         .max = 1,                                                                             \
-         .flags = FIELD_OPEN_MIN | FIELD_OPEN_MAX,                                             \
-         .help = "b/sqrt(l^2 - h^2): near 1 for a taut cable, near 0 for a deep one"},         \
-        {FIELD_AT(FIELD_NUMBER, cable_input, xi_1), .unit = "1", .min = -1.3e5, .max = 1.3e5,  \
-         .help = "xi of end 1: sgn(slope) (1/cos(slope angle) - 1)"},                          \
-        {FIELD_AT(FIELD_NUMBER, cable_input, xi_2), .unit = "1", .min = -1.3e5, .max = 1.3e5,  \
-         .help = "xi of end 2, above xi_1"},                                                   \
-        {FIELD_AT(FIELD_NUMBER, cable_input, chi_1), .unit = "1", .min = -STRUM_CHI_MAX,       \
-         .max = STRUM_CHI_MAX, .help = "x/a of end 1: asinh of the slope there"},              \
-        {FIELD_AT(FIELD_NUMBER, cable_input, chi_2), .unit = "1", .min = -STRUM_CHI_MAX,       \
-         .max = STRUM_CHI_MAX, .help = "x/a of end 2, above chi_1"},                           \
-        {FIELD_AT(FIELD_NUMBER, cable_input, span_m), .unit = "m", .min = CABLE_LEAST,         \
-         .max = 1e6, .help = "horizontal distance of the supports"},                           \
-        {FIELD_AT(FIELD_NUMBER, cable_input, rise_m),                                          \
-         .unit = "m",                                                                          \
-         .min = -1e6,                                                                          \
-         .max = 1e6,                                                                           \
-         .flags = FIELD_DEFAULT,                                                               \
-         .help = "height of end 2 above end 1"},                                               \
-        {FIELD_AT(FIELD_NUMBER, cable_input, length_m), .unit = "m", .min = CABLE_LEAST,       \
-         .max = 1e7, .help = "length of the hanging cable, longer than the chord"},            \
-        {FIELD_AT(FIELD_NUMBER, cable_input, unstretched_length_m), .unit = "m",               \
-         .min = CABLE_LEAST, .max = 1e7,                                                       \
-         .help = "length without load: modes about the exact elastic catenary"},               \
-        {FIELD_AT(FIELD_NUMBER, cable_input, gravity_m_per_s2),                                \
-         .unit = "m/s^2",                                                                      \
-         .min = CABLE_LEAST,                                                                   \
-         .max = 1e4,                                                                           \
-         .flags = FIELD_DEFAULT,                                                               \
-         .fallback = 9.80665,                                                                  \
-         .help = "acceleration of gravity"},                                                   \
-        {FIELD_AT(FIELD_NUMBER, cable_input, mass_kg_per_m), .unit = "kg/m",                   \
-         .min = CABLE_LEAST, .max = 1e6,                                                       \
-         .help = "mass per length (per unstretched length where that is given)"},              \
-        {FIELD_AT(FIELD_NUMBER, cable_input, weight_N_per_m), .unit = "N/m",                   \
-         .min = CABLE_LEAST * CABLE_LEAST, .max = 1e10, /* of every mass times gravity */      \
-         .help = "weight per length; default mass times gravity, less in water"},              \
-        {FIELD_AT(FIELD_NUMBER, cable_input, added_mass_kg_per_m),                             \
-         .unit = "kg/m",                                                                       \
-         .min = 0,                                                                             \
-         .max = 1e6,                                                                           \
-         .flags = FIELD_DEFAULT,                                                               \
-         .help = "mass of fluid that moves with the cable, normal to it"},                     \
-        {FIELD_AT(FIELD_NUMBER, cable_input, flexibility),                                     \
-         .unit = "1",                                                                          \
-         .min = 0,                                                                             \
-         .max = 1e4,                                                                           \
-         .flags = FIELD_DEFAULT,                                                               \
-         .help = "kappa = S0/k: horizontal tension over axial stiffness; 0: inextensible"},    \
-        {FIELD_AT(FIELD_NUMBER, cable_input, axial_stiffness_N), .unit = "N",                  \
-         .min = CABLE_LEAST, .max = 1e15, .help = "EA of the cable"},                          \
-        {FIELD_AT(FIELD_NUMBER, cable_input, eta_tangential),                                  \
-         .unit = "1",                                                                          \
-         .min = 0,                                                                             \
-         .max = 1e6,                                                                           \
-         .flags = FIELD_DEFAULT,                                                               \
-         .help = "eta_1: tangential viscous damping per length over m sqrt(g/a)"},             \
+#define CABLE_NUMBER(member, unit_, min_, max_, flags_, fallback_, help_)                      \
     {                                                                                          \
-        FIELD_AT(FIELD_NUMBER, cable_input, eta_normal),                                       \
-            .unit = "1", .min = 0, .max = 1e6, .flags = FIELD_DEFAULT,                         \
-            .help = "eta_2: normal and out-of-plane "                                          \
-                    "viscous damping per length over m "                                       \
-                    "sqrt(g/a)"                                                                \
+        FIELD_AT(FIELD_NUMBER, cable_input, member), .unit = (unit_), .min = (min_),           \
+                                                     .max = (max_), .flags = (flags_),         \
+                                                     .fallback = (fallback_), .help = (help_)  \
     }
+
+#define CABLE_FIELDS                                                                           \
+    CABLE_NUMBER(rise_to_span, "1", -1e4, 1e4, FIELD_DEFAULT, 0,                               \
+                 "h/b: height of end 2 above end 1 over the span"),                            \
+        CABLE_NUMBER(sag_parameter, "1", 0, 1, FIELD_OPEN_MIN | FIELD_OPEN_MAX, 0,             \
+                     "b/sqrt(l^2 - h^2): near 1 for a taut cable, near 0 for a deep one"),     \
+        CABLE_NUMBER(xi_1, "1", -1.3e5, 1.3e5, 0, 0,                                           \
+                     "xi of end 1: sgn(slope) (1/cos(slope angle) - 1)"),                      \
+        CABLE_NUMBER(xi_2, "1", -1.3e5, 1.3e5, 0, 0, "xi of end 2, above xi_1"),               \
+        CABLE_NUMBER(chi_1, "1", -STRUM_CHI_MAX, STRUM_CHI_MAX, 0, 0,                          \
+                     "x/a of end 1: asinh of the slope there"),                                \
+        CABLE_NUMBER(chi_2, "1", -STRUM_CHI_MAX, STRUM_CHI_MAX, 0, 0,                          \
+                     "x/a of end 2, above chi_1"),                                             \
+        CABLE_NUMBER(span_m, "m", CABLE_LEAST, 1e6, 0, 0,                                      \
+                     "horizontal distance of the supports"),                                   \
+        CABLE_NUMBER(rise_m, "m", -1e6, 1e6, FIELD_DEFAULT, 0, "height of end 2 above end 1"), \
+        CABLE_NUMBER(length_m, "m", CABLE_LEAST, 1e7, 0, 0,                                    \
+                     "length of the hanging cable, longer than the chord"),                    \
+        CABLE_NUMBER(unstretched_length_m, "m", CABLE_LEAST, 1e7, 0, 0,                        \
+                     "length without load: modes about the exact elastic catenary"),           \
+        CABLE_NUMBER(gravity_m_per_s2, "m/s^2", CABLE_LEAST, 1e4, FIELD_DEFAULT, 9.80665,      \
+                     "acceleration of gravity"),                                               \
+        CABLE_NUMBER(mass_kg_per_m, "kg/m", CABLE_LEAST, 1e6, 0, 0,                            \
+                     "mass per length (per unstretched length where that is given)"),          \
+        CABLE_NUMBER(weight_N_per_m, "N/m", CABLE_LEAST *CABLE_LEAST, 1e10, 0,                 \
+                     0, /* of every mass times gravity */                                      \
+                     "weight per length; default mass times gravity, less in water"),          \
+        CABLE_NUMBER(added_mass_kg_per_m, "kg/m", 0, 1e6, FIELD_DEFAULT, 0,                    \
+                     "mass of fluid that moves with the cable, normal to it"),                 \
+        CABLE_NUMBER(                                                                          \
+            flexibility, "1", 0, 1e4, FIELD_DEFAULT, 0,                                        \
+            "kappa = S0/k: horizontal tension over axial stiffness; 0: inextensible"),         \
+        CABLE_NUMBER(axial_stiffness_N, "N", CABLE_LEAST, 1e15, 0, 0, "EA of the cable"),      \
+        CABLE_NUMBER(eta_tangential, "1", 0, 1e6, FIELD_DEFAULT, 0,                            \
+                     "eta_1: tangential viscous damping per length over m sqrt(g/a)"),         \
+        CABLE_NUMBER(                                                                          \
+            eta_normal, "1", 0, 1e6, FIELD_DEFAULT, 0,                                         \
+            "eta_2: normal and out-of-plane viscous damping per length over m sqrt(g/a)")
 
 extern const char *const cable_geometry_groups[], *const cable_elasticity_groups[];
 /* Rows of a field_groups table. */
