@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* strumd: settings, start, wait for a signal, drain, stop. */
 #include <fcntl.h>
+#include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/signalfd.h>
@@ -65,6 +66,9 @@ static int check(const settings *set)
     strbuf_clear(&notes);
     return good ? 0 : 2;
 }
+/* Answers and arrays larger than this come from the system and go back to it at once. Left to itself
+ * glibc raises the limit with each that is freed, and holes among stored answers add up. */
+#define LARGE_BLOCK (64 << 10)
 
 static int serve(const settings *set)
 {
@@ -104,6 +108,7 @@ static int serve(const settings *set)
 
 int main(int argc, char *argv[])
 {
+    (void)mallopt(M_MMAP_THRESHOLD, LARGE_BLOCK);
     settings set;
     settings_action action;
     strbuf faults = {0};

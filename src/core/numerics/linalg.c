@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/numerics/pieces.h"
+#include "core/numerics/schur.h"
 
 /* The _work forms: column-major passes through without copies, and no scan for NaN. */
 
@@ -307,6 +308,9 @@ strum_status linalg_semidefinite_root(int n, const double *a, int lda, double *l
     return status;
 }
 
+/* From here on a single call of dgeev would take more than a tenth of a second. */
+#define GENERAL_FROM 400
+
 /* z [z g; g] = [-C -M; I 0] [z g; g] */
 static void fill_companion(int n, const double *c, const double *m, double *companion)
 {
@@ -333,10 +337,15 @@ static strum_status quadratic(int n, const double *c, const double *m, double _C
         room == NULL)
         return STRUM_ERR_MEMORY;
     fill_companion(n, c, m, companion);
-    if (LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', vectors != NULL ? 'V' : 'N', (lapack_int)two,
-                           companion, (lapack_int)two, re, im, NULL, 1, v, (lapack_int)two,
-                           room, lwork) != 0)
+    if (two >= GENERAL_FROM) {
+        const strum_status status = schur_pairs((int)two, companion, re, im, v, scratch);
+        if (status != STRUM_OK)
+            return status;
+    } else if (LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', vectors != NULL ? 'V' : 'N',
+                                  (lapack_int)two, companion, (lapack_int)two, re, im, NULL, 1,
+                                  v, (lapack_int)two, room, lwork) != 0) {
         return STRUM_ERR_INTERNAL;
+    }
     for (size_t j = 0; j < two; j++) {
         values[j] = CMPLX(re[j], im[j]);
         if (vectors == NULL)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a solve may use: CPU time, memory, and how often it asks whether it may go on. */
+#include <complex.h>
 #include <math.h>
 #include <string.h>
 #include <time.h>
@@ -279,6 +280,89 @@ static void a_large_semidefinite_matrix_keeps_its_rank(void **state)
     arena_free(&a);
 }
 
+/* (z^2 + c_i z + m_i) h_i.g = 0, h_i the columns of a reflection: roots in closed form, some of
+ * them real. */
+static void a_large_quadratic_problem_has_its_roots(void **state)
+{
+    (void)state;
+    enum { N = 260 };
+    arena a = {0};
+    double *c = arena_doubles(&a, N * N), *m = arena_doubles(&a, N * N);
+    double _Complex *z = arena_alloc(&a, 2 * N, sizeof *z);
+    double _Complex *g = arena_alloc(&a, 2 * N * N, sizeof *g),
+                    *only = arena_alloc(&a, 2 * N, 16);
+    double damping[N], stiffness[N];
+    for (int k = 0; k < N; k++) {
+        damping[k] = k % 3 == 0 ? 0.02 : 0.503 + 0.01 * k; /* none is critical */
+        stiffness[k] = pow(0.05 + 0.01 * k, 2);
+    }
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            double cc = 0, mm = 0; /* H = I - 2 v v'/N, v = (1, -1, 1, ..) */
+            for (int k = 0; k < N; k++) {
+                const double hi = (i == k) - 2.0 / N * ((i + k) % 2 ? -1 : 1);
+                const double hj = (j == k) - 2.0 / N * ((j + k) % 2 ? -1 : 1);
+                cc += hi * damping[k] * hj;
+                mm += hi * stiffness[k] * hj;
+            }
+            c[i + j * N] = cc;
+            m[i + j * N] = mm;
+        }
+    assert_int_equal(linalg_quadratic(N, c, m, z, g, NULL), STRUM_OK);
+    assert_int_equal(linalg_quadratic(N, c, m, only, NULL, NULL), STRUM_OK);
+    int real = 0;
+    for (int k = 0; k < N; k++) {
+        const double _Complex half = csqrt(damping[k] * damping[k] / 4 - stiffness[k]);
+        real += cimag(half) == 0;
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const double _Complex want = -damping[k] / 2 + sign * half;
+            double nearest = INFINITY, alone = INFINITY;
+            for (int i = 0; i < 2 * N; i++) {
+                nearest = fmin(nearest, cabs(z[i] - want));
+                alone = fmin(alone, cabs(only[i] - want));
+            }
+            assert_true(nearest < 1e-9 && alone < 1e-9);
+        }
+    }
+    assert_true(real > 10 && real < N - 10);
+    for (int k = 0; k < 2 * N; k += 7) {
+        double size = 0, worst = 0;
+        for (int i = 0; i < N; i++) {
+            double _Complex left = z[k] * z[k] * g[i + k * N];
+            for (int j = 0; j < N; j++)
+                left += (z[k] * c[i + j * N] + m[i + j * N]) * g[j + k * N];
+            size = fmax(size, cabs(g[i + k * N]));
+            worst = fmax(worst, cabs(left));
+        }
+        assert_true(worst < 1e-10 * size);
+    }
+    arena_free(&a);
+}
+
+/* Damping that is not proportional to mass, off the level: the quadratic problem of 540. */
+static void damped_modes_are_solved_in_pieces(void **state)
+{
+    (void)state;
+    const strum_modes_params params = {
+        {.chi_m = 0.5, .mu = 2.5, .mass_t = 1, .mass_n = 1, .eta_n = 0.2},
+        STRUM_IN_PLANE,
+        60,
+        true};
+    strum_modes *modes;
+    strum_error error;
+    strum_verification v;
+    watch w;
+    strum_options options = watched(&w, 1e9);
+    assert_int_equal(strum_modes_solve(&params, &options, &modes, &error), STRUM_OK);
+    check_pieces(&w, 300);
+    options = watched(&w, 1e9);
+    assert_int_equal(strum_modes_verify(modes, &options, &v, &error), STRUM_OK);
+    check_pieces(&w, 100);
+    assert_true(v.max_relative_difference < 1e-12);
+    assert_int_equal(v.modes_expected, v.modes_found);
+    strum_modes_free(modes);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -290,6 +374,8 @@ int main(void)
         cmocka_unit_test(cpu_time_is_bounded),
         cmocka_unit_test(an_arena_gives_back),
         cmocka_unit_test(large_eigenproblems_go_in_pieces),
+        cmocka_unit_test(a_large_quadratic_problem_has_its_roots),
+        cmocka_unit_test(damped_modes_are_solved_in_pieces),
         cmocka_unit_test(a_large_semidefinite_matrix_keeps_its_rank),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
