@@ -97,6 +97,19 @@ static void complete_metres(inclined_request *r)
     r->cable.epsilon = r->weight_N_per_m * r->length_m / r->tension;
     r->cable.mass_ratio = r->mass_kg_per_m / mass;
     r->rad_per_s = sqrt(r->tension / mass) / r->length_m;
+    if (!isnormal(r->tension / mass)) /* beyond the doubles where its root is not */
+        r->rad_per_s = sqrt(r->tension) / sqrt(mass) / r->length_m;
+}
+
+/* The answer has frequencies up to some 1e5 times this, and their periods. */
+static void check_unit_of_frequency(const inclined_request *r, problem *p)
+{
+    if (r->rad_per_s > 1e-300 && r->rad_per_s < 1e300)
+        return;
+    problem_set(p, 422, "frequencies in rad/s would be beyond the range of numbers");
+    problem_add(p, "/mass_kg_per_m",
+                "sqrt(tension/mass)/length is %.3g rad/s, beyond 1e-300 to 1e300",
+                r->rad_per_s);
 }
 
 /* Lambda squared of a cable in metres; what overflows is too stiff, not infinitely so. */
@@ -153,6 +166,8 @@ void inclined_prepare(void *data, schema_arena *arena, problem *p)
     if (metres)
         complete_metres(r);
     find_stiffness(r, metres, p);
+    if (p->status == 0 && metres)
+        check_unit_of_frequency(r, p);
     if (p->status != 0)
         return;
     strum_error error = {0};
