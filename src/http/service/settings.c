@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "http/service/settings.h"
 #include "http/service/settings_table.h"
 
 #include <ctype.h>

@@ -3,7 +3,7 @@
 #ifndef HTTP_SERVICE_SETTINGS_TABLE_H
 #define HTTP_SERVICE_SETTINGS_TABLE_H
 
-#include "http/service/settings.h"
+#include <stddef.h>
 
 typedef enum setting_kind {
     SETTING_TEXT,

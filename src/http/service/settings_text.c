@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "http/service/settings.h"
 #include "http/service/settings_table.h"
 
 static const struct {
