@@ -80,9 +80,10 @@ typedef struct endpoint {
 /* A request that was read, checked and completed. Owned by the caller; ended by evaluation_free. */
 typedef struct evaluation evaluation;
 
-/* Bytes that an answer may have, of every thread; 0, as at first: no limit. A request whose answer
- * would have more is refused when it is read where that is known, else when it is answered. */
-void evaluation_limit_answers(size_t bytes);
+/* Bytes that an answer may have, and that one solve may hold, of every thread; 0, as at first: no
+ * limit. A request whose answer would have more is refused when it is read where that is known,
+ * else when it is answered. */
+void evaluation_limit(size_t answer_bytes, size_t solve_bytes);
 
 /* From a JSON body / from query pairs. NULL with `p` filled when refused. */
 evaluation *evaluation_read(const endpoint *e, const char *body, size_t size,

@@ -23,11 +23,12 @@ struct evaluation {
     double cost_us; /* an estimate may itself solve something: made once */
 };
 
-static _Atomic size_t answer_most;
+static _Atomic size_t answer_most, solve_most;
 
-void evaluation_limit_answers(size_t bytes)
+void evaluation_limit(size_t answer_bytes, size_t solve_bytes)
 {
-    atomic_store(&answer_most, bytes);
+    atomic_store(&answer_most, answer_bytes);
+    atomic_store(&solve_most, solve_bytes);
 }
 
 /* Refuses what would have more bytes than may be sent. */
@@ -172,6 +173,7 @@ static bool is_cancelled(void *a)
 strum_options answer_options(const answer *a)
 {
     strum_options options = STRUM_OPTIONS_INIT;
+    options.bytes_max = atomic_load(&solve_most);
     if (a->cancel != NULL) {
         options.cancelled = is_cancelled;
         options.context = (void *)(uintptr_t)a; /* only read */
