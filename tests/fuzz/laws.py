@@ -126,7 +126,8 @@ class UnitsChange(Law):
     paths = (CATENARY, FORCED, INCLINED, TAUT)  # a matrix has another unit in each of its places
     relative = 1e-9
     # what measures roundings, and where something is largest: a flat maximum moves by the root of a rounding, or to its twin
-    ROUNDINGS = ("verification", "longitudinal_energy", "max_relative_difference", "symmetric_share", "at_chi", "at_time_to_period")
+    ROUNDINGS = ("verification", "longitudinal_energy", "max_relative_difference", "symmetric_share",
+                 "evaluations", "at_chi", "at_time_to_period")
 
     def draw(self):
         request = super().draw()
