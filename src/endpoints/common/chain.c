@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "endpoints/common/chain.h"
+#include "endpoints/common/members.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -450,9 +451,7 @@ void chain_write_root(json_writer *json, const strum_taut_root *root)
     if (root->mode > 0)
         json_put_integer(json, "mode", root->mode);
     if (w > 0.0) {
-        json_put_number(json, "angular_frequency_rad_per_s", w);
-        json_put_number(json, "frequency_Hz", w / (2 * M_PI));
-        json_put_number(json, "period_s", 2 * M_PI / w);
+        put_frequency(json, w);
     } else if (decay == 0.0) { /* a rigid motion */
         json_put_number(json, "angular_frequency_rad_per_s", 0.0);
         json_put_number(json, "frequency_Hz", 0.0);
@@ -460,8 +459,8 @@ void chain_write_root(json_writer *json, const strum_taut_root *root)
     json_put_number(json, "decay_rate_per_s", decay);
     if (w > 0.0) {
         json_put_number(json, "damping_ratio", decay / hypot(w, decay));
-        json_put_number(json, "loss_ratio", decay / w);
-        json_put_number(json, "log_decrement", 2 * M_PI * decay / w);
+        put_finite(json, "loss_ratio", decay / w);
+        put_finite(json, "log_decrement", 2 * M_PI * decay / w);
     }
     if (isfinite(root->exceptional)) {
         json_put_number(json, "relative_damping_to_coalescence", root->exceptional);

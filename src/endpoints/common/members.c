@@ -10,9 +10,13 @@ void put_frequency(json_writer *json, double rad_per_s)
 {
     json_put_number(json, "angular_frequency_rad_per_s", rad_per_s);
     json_put_number(json, "frequency_Hz", rad_per_s / (2 * M_PI));
-    const double period = 2 * M_PI / rad_per_s;
-    if (isfinite(period))
-        json_put_number(json, "period_s", period);
+    put_finite(json, "period_s", 2 * M_PI / rad_per_s);
+}
+
+void put_finite(json_writer *json, const char *key, double value)
+{
+    if (isfinite(value))
+        json_put_number(json, key, value);
 }
 
 void put_verification(json_writer *json, const strum_verification *v)

@@ -12,6 +12,8 @@ extern const char *const plane_keys[];
 /* By strum_symmetry. */
 extern const char *const symmetry_names[];
 
+/* A number that may be beyond a double, as a time is next to frequency 0: then it is left out. */
+void put_finite(json_writer *json, const char *key, double value);
 /* angular_frequency_rad_per_s and frequency_Hz, and period_s where it is finite. */
 void put_frequency(json_writer *json, double rad_per_s);
 /* The object "verification", and its members alone. */

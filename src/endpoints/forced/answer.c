@@ -59,13 +59,6 @@ static double degrees(double radians)
     return turned > 180 ? turned - 360 : turned <= -180 ? turned + 360 : turned;
 }
 
-/* A time, which has no number where the frequency is 0 or next to it. */
-static void put_finite(json_writer *json, const char *key, double value)
-{
-    if (isfinite(value))
-        json_put_number(json, key, value);
-}
-
 static void write_frequency(json_writer *json, const forced_request *r, double frequency_ratio)
 {
     json_put_number(json, "frequency_ratio", frequency_ratio);

@@ -68,7 +68,7 @@ static void decode(const char *at, const char *end, char value[FIELD_SIZE])
     while (at < end && *at != '&' && size < FIELD_SIZE - 1) {
         const int high = *at == '%' && end - at > 2 ? hex_digit(at[1]) : -1;
         const int low = high >= 0 ? hex_digit(at[2]) : -1;
-        value[size++] = low >= 0 ? (char)(high << 4 | low) : *at == '+' ? ' ' : *at;
+        value[size++] = (char)(low >= 0 ? high << 4 | low : *at == '+' ? ' ' : *at);
         at += low >= 0 ? 3 : 1;
     }
     value[size] = '\0';

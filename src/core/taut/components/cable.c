@@ -82,6 +82,9 @@ static strum_status cable_survey(strum_taut_shape *shape, size_t i, strum_error 
     strum_status status = taut_nodes_fit(phase / M_PI, error);
     if (status != STRUM_OK)
         return status;
+    if (!isfinite(zero) || !isfinite(top))
+        return error_set(error, STRUM_ERR_ACCURACY,
+                         "the shape spans more than doubles resolve");
     const bool odd = taut_signs_differ(a, creal(shape->y[i + 1]));
     const long nodes = odd + 2 * lround(((phase - zero) / M_PI + 0.5 - odd) / 2.0);
     for (long n = 0; n < nodes && status == STRUM_OK; n++)
