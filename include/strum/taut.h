@@ -211,6 +211,7 @@ typedef struct strum_taut_roots {
     long evaluations;    /* of the characteristic function */
 } strum_taut_roots;
 
+/* STRUM_ERR_RANGE also where a mode lies beyond 1e-120 and 1e120 rad/s. */
 strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *query,
                               const strum_options *options, strum_taut_roots **roots,
                               strum_error *error);
@@ -239,7 +240,8 @@ typedef struct strum_taut_antinode {
 typedef struct strum_taut_shape strum_taut_shape;
 
 /* The shape of a root of the chain: shooting from both ends, joined where the motion is
- * largest. `root->frequency` > 0. STRUM_ERR_METHOD above STRUM_TAUT_NODES_MAX nodes. */
+ * largest. `root->frequency` > 0. STRUM_ERR_METHOD above STRUM_TAUT_NODES_MAX nodes, STRUM_ERR_RANGE
+ * beyond 1e-120 and 1e120 rad/s. */
 strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_root *root,
                                    const strum_options *options, strum_taut_shape **shape,
                                    strum_error *error);

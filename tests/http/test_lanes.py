@@ -172,7 +172,7 @@ def test_a_body_without_memory_is_refused(start_strumd):
 
 def test_a_batch_takes_a_slot_when_its_body_is_whole(start_strumd):
     strumd = start_strumd("--batches", "4")
-    head = b"POST /v1/batch HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n["
+    head = b"POST /v1/batch HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n["
     with contextlib.ExitStack() as stack:
         for _ in range(16):
             stack.enter_context(strumd.connect()).sendall(head)
@@ -190,7 +190,7 @@ def test_no_client_holds_all_slots_of_batches(start_strumd):
         assert refused.status_code == 503 and refused.headers["Retry-After"]
         other = socket.create_connection(("127.0.0.1", strumd.port), 60, source_address=("127.0.0.2", 0))
         body = json.dumps([item(CHEAP)]).encode()
-        other.sendall(b"POST /v1/batch HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s"
+        other.sendall(b"POST /v1/batch HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n%s"
                       % (len(body), body))
         assert read_until(other, b'"result"').startswith(b"HTTP/1.1 200")
         other.close()

@@ -193,6 +193,9 @@ strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_roo
     *shape = NULL;
     if (!(root->frequency > 0.0) || !isfinite(root->frequency) || !isfinite(root->decay))
         return error_set(error, STRUM_ERR_RANGE, "a shape needs a frequency above 0");
+    const strum_status fits = taut_frequency_fits(root->frequency, error);
+    if (fits != STRUM_OK)
+        return fits;
     if (!chain->moves)
         return error_set(error, STRUM_ERR_IMPOSSIBLE, "nothing in the chain can move");
     const size_t stations = chain->count + 1;

@@ -11,6 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* rad/s: their squares, with masses and lengths, stay within doubles. */
+#define FREQUENCY_MIN 1e-120
+#define FREQUENCY_MAX 1e120
+
 /* ---- undamped chains ---- */
 
 static strum_status undamped(taut_solve *s, const long *numbers, size_t count)
@@ -99,6 +103,15 @@ static strum_status check_query(const strum_taut *chain, const strum_taut_query 
     return STRUM_OK;
 }
 
+strum_status taut_frequency_fits(double frequency, strum_error *error)
+{
+    return frequency == 0.0 || (frequency >= FREQUENCY_MIN && frequency <= FREQUENCY_MAX)
+               ? STRUM_OK
+               : error_set(error, STRUM_ERR_RANGE,
+                           "a mode has %.3g rad/s: nothing is answered beyond %g and %g",
+                           frequency, FREQUENCY_MIN, FREQUENCY_MAX);
+}
+
 strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *query,
                               const strum_options *options, strum_taut_roots **roots,
                               strum_error *fault)
@@ -122,6 +135,8 @@ strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *q
         status = undamped_band(&s);
     if (status == STRUM_OK && query->method == STRUM_TAUT_MULLER)
         status = taut_solve_muller(&s);
+    for (size_t i = 0; i < out->count && status == STRUM_OK; i++)
+        status = taut_frequency_fits(out->roots[i].frequency, fault);
     if (status == STRUM_OK)
         taut_roots_sort(out, query->count == 0);
     out->evaluations += s.search.evaluations;

@@ -61,6 +61,9 @@ void taut_characteristic(const strum_taut *chain, const taut_at *at, taut_value 
 strum_status taut_frequencies(const strum_taut *chain, const long *numbers, size_t count,
                               work *spent, double *frequencies, strum_error *error);
 
+/* STRUM_ERR_RANGE for a frequency whose square is next to the end of doubles. */
+strum_status taut_frequency_fits(double frequency, strum_error *error);
+
 /* Typical distance of modes, rad/s. */
 double taut_spacing(const strum_taut *chain);
 
