@@ -231,27 +231,33 @@ def test_a_batch_is_cut_short_with_a_word(start_strumd):
     wait_metric(strumd, "workers_busy", 0)
 
 
-def test_a_batch_that_cannot_go_on_says_so_in_each_item(start_strumd):
-    """Far more than the window holds: a client that counts lines misses none."""
+def test_a_batch_goes_on_without_an_item_that_takes_too_long(start_strumd):
     strumd = start_strumd(*ONE_WORKER, "--solve-timeout-s", "0.5")
     got = [json.loads(line) for line in answers(post_batch(
         strumd, [item(CHEAP), item(ENDLESS, FORCED)] + [item(cheap(n)) for n in range(1000)]))]
-    assert len(got) == 1002 and "result" in got[0]
-    for index, line in enumerate(got[1:], 1):
-        assert "result" in line or (line["index"] == index and line["status"] == 503)
-    assert "solve_timeout_s" in got[1]["detail"] and "solve_timeout_s" in got[1001]["detail"]
+    assert len(got) == 1002
+    assert (got[1]["index"], got[1]["status"]) == (1, 503) and "solve_timeout_s" in got[1]["detail"]
+    for line in got[:1] + got[2:]:
+        # a slow machine may need longer for one of them
+        assert "result" in line or "solve_timeout_s" in line["detail"]
+    assert sum("result" in line for line in got) > 900
+    wait_metric(strumd, "workers_busy", 0)
 
 
 @pytest.mark.parametrize("signals", [1, 2])
 def test_the_way_out(start_strumd, signals):
     strumd = start_strumd(*ONE_WORKER)
-    items = [item(CHEAP)] + [item(costly(n)) for n in range(20)] + [item(ENDLESS, FORCED)] * (signals - 1)
+    items = [item(CHEAP)] + [item(costly(n)) for n in range(20)]
+    if signals == 2:  # more than the window holds wait behind it
+        items += [item(ENDLESS, FORCED)] + [item(cheap(n)) for n in range(1000)]
     connection = open_batch(strumd, items)
     got = read_until(connection, b'"result"')
     for _ in range(signals):
         strumd.process.send_signal(signal.SIGTERM)
         strumd.wait_log("draining")
     got += read_until(connection, b"\r\n0\r\n\r\n")
-    assert got.count(b'"result"') == 21 if signals == 1 else b"shutting down" in got
+    # a client that counts lines misses none
+    assert got.count(b'"result":') + got.count(b'{"index":') == len(items)
+    assert got.count(b'"result":') == 21 if signals == 1 else b"shutting down" in got
     assert strumd.process.wait(PATIENCE) == signals - 1
     connection.close()

@@ -305,10 +305,38 @@ static stream_turn write_rest(batch *b, const char *given_up)
     return STREAM_PIECE;
 }
 
+/* The item whose turn it is took too long: it says so, and the batch goes on without it. False when
+ * it is none that waits for its answer: then no worker came to it at all. */
+static bool give_up_one(batch *b, const char *why)
+{
+    stream *st = &b->stream;
+    bool left = false, begun;
+    pthread_mutex_lock(&b->lock);
+    slot *s = slot_of(b, b->sent);
+    begun = b->sent < b->begun;
+    if (begun && s->state == SLOT_WAITING && cache_release(b->service->cache, &s->waiter)) {
+        left = true;
+        write_line(b->sent, NULL, why, &st->out);
+        s->state = SLOT_FREE;
+        b->sent++;
+    }
+    pthread_mutex_unlock(&b->lock);
+    if (left)
+        stream_unref(st); /* the waiter's */
+    return begun;
+}
+
 static stream_turn next(stream *st)
 {
     batch *b = (batch *)(void *)st;
     const char *given_up = atomic_load(&st->given_up);
+    if (given_up && !b->ended && clock_ms() >= st->wait_until_ms && b->sent < b->total &&
+        give_up_one(b, given_up)) {
+        atomic_store(&st->given_up, NULL);
+        given_up = NULL;
+        st->wait_until_ms =
+            clock_ms() + (int64_t)(b->service->settings->solve_timeout_s * 1000);
+    }
     if (b->sent == b->total || (b->ended && !given_up))
         return STREAM_END;
     if (given_up && !b->ended)
