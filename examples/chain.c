@@ -59,7 +59,7 @@ int main(void)
     query.method = STRUM_TAUT_CERTIFIED;
     strum_taut_roots *roots = NULL;
     strum_status status = strum_taut_solve(chain, &query, NULL, &roots, &error);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     if (status != STRUM_OK)
         return fail(&error);
 
@@ -69,6 +69,6 @@ int main(void)
         printf("%ld  %.12g  %.12g\n", root->mode, root->frequency / TWO_PI,
                root->decay / hypot(root->frequency, root->decay));
     }
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     return 0;
 }

@@ -129,7 +129,8 @@ typedef struct strum_taut strum_taut;
 strum_status strum_taut_make(const strum_taut_component *components, size_t count,
                              strum_taut_end left, strum_taut_end right, strum_taut **chain,
                              strum_error *error);
-void strum_taut_free(strum_taut **chain);
+/* Gives back the caller's reference; NULL is fine. */
+void strum_taut_free(strum_taut *chain);
 /* Sum of the lengths of the components, m. */
 double strum_taut_length(const strum_taut *chain);
 /* Does any component dissipate (finite, positive damping)? */
@@ -215,7 +216,7 @@ typedef struct strum_taut_roots {
 strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *query,
                               const strum_options *options, strum_taut_roots **roots,
                               strum_error *error);
-void strum_taut_roots_free(strum_taut_roots **roots);
+void strum_taut_roots_free(strum_taut_roots *roots);
 
 /* One branch, followed from mode `mode` at zero damping through `count` ascending factors > 0
  * by which every finite damping is multiplied; frequency 0 from where it is overdamped (then
@@ -245,7 +246,7 @@ typedef struct strum_taut_shape strum_taut_shape;
 strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_root *root,
                                    const strum_options *options, strum_taut_shape **shape,
                                    strum_error *error);
-void strum_taut_shape_free(strum_taut_shape **shape);
+void strum_taut_shape_free(strum_taut_shape *shape);
 /* At `count` >= 2 equally spaced points, ends included. */
 strum_status strum_taut_shape_sample(const strum_taut_shape *shape, size_t count,
                                      strum_taut_point *points, strum_error *error);

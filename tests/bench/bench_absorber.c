@@ -138,7 +138,7 @@ static void undamped(double k, double *guesses)
     if (build(NULL, values, &chain, NULL) != STRUM_OK ||
         strum_taut_frequencies(chain, modes, 2, NULL, guesses, NULL) != STRUM_OK)
         exit(1);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 /* Is each of his roots that of the mode whose frequency it was started from? */
@@ -163,8 +163,8 @@ static void check(double k, double r, const cplx *roots)
         asked++;
         hopped += !same;
     }
-    strum_taut_roots_free(&right);
-    strum_taut_free(&chain);
+    strum_taut_roots_free(right);
+    strum_taut_free(chain);
 }
 
 static void report_grid(bool checking)

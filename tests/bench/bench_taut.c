@@ -81,7 +81,7 @@ static task many_masses(int masses, int modes, double drag)
 
 static void end(task *t)
 {
-    strum_taut_free(&t->chain);
+    strum_taut_free(t->chain);
     free(t->x);
     free(t->m);
     free(t->numbers);
@@ -104,7 +104,7 @@ static void roots(void *data)
     strum_error fault = {0};
     if (strum_taut_solve(t->chain, &t->query, NULL, &found, &fault) != STRUM_OK)
         fail("strum_taut_solve", fault.reason);
-    strum_taut_roots_free(&found);
+    strum_taut_roots_free(found);
 }
 
 /* ---- finite elements ---- */
@@ -250,8 +250,8 @@ static void damped_band(void)
     const double theirs = bench_median_us(damped_elements, &t, 3);
     bench_time("taut/baseline-35-damped-roots/spectral-elements-dgeev", theirs);
     bench_ratio("taut/damped-dgeev-over-strum", theirs / ours, "at-least", 10);
-    strum_taut_roots_free(&found);
-    strum_taut_free(&t.chain);
+    strum_taut_roots_free(found);
+    strum_taut_free(t.chain);
     /* a long chain, every mode damped */
     task many = many_masses(380, 1, 0.1);
     many.query = (strum_taut_query){.lowest = 0.01, .highest = 14.0, .max_decay = 5.0};

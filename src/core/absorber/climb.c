@@ -68,7 +68,7 @@ static bool one_step(search *s, const double *t, const cplx *roots, int count, c
         taut_characteristic(chain, &at, &value);
         out[k] = roots[k] - over(value.f, value.d);
     }
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     return true;
 }
 
@@ -118,7 +118,7 @@ static bool follow(climb *r, const double *t, cplx *s)
         if (!taut_newton(&newton, &s[k]) || !(cimag(s[k]) > 0.0))
             s[k] = 0.0;
     }
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     return true;
 }
 
@@ -199,7 +199,7 @@ static bool twin_value(climb *r, const double *t, cplx s, cplx out[2])
     const taut_at at = taut_at_s(s, 1.0);
     taut_value value;
     taut_characteristic(chain, &at, &value);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     const double scale = exp(value.log_scale - r->twin_log) / r->twin_scale;
     out[0] = scale * value.f;
     out[1] = scale * cabs(r->twin) * value.d;
@@ -274,7 +274,7 @@ static bool begin(climb *r, double level)
     r->spacing = taut_spacing(chain);
     r->level = level;
     r->count = 0;
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     strum_taut_roots *roots = search_roots(s, r->from, r->spacing);
     for (size_t i = 0; roots != NULL && i < roots->count; i++) {
         const cplx root = CMPLX(-roots->roots[i].decay, roots->roots[i].frequency);
@@ -288,7 +288,7 @@ static bool begin(climb *r, double level)
             r->roots[at] = r->roots[at - 1];
         r->roots[at] = new;
     }
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     return r->count > 0;
 }
 

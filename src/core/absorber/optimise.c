@@ -213,7 +213,7 @@ strum_status strum_absorber_solve(const strum_absorber_params *p, const strum_op
         run_one(&s, out);
     else
         run_several(&s, out);
-    strum_taut_roots_free(&s.last);
+    strum_taut_roots_free(s.last);
     out->evaluations = s.evaluations;
     out->complete = !s.stopped;
     if (s.broken != STRUM_OK)

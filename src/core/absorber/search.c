@@ -92,7 +92,7 @@ strum_status strum_absorber_roots(const strum_absorber_params *p, const strum_op
     strum_status status = p->build(p->context, values, &chain, error);
     if (status == STRUM_OK)
         status = roots_of(p, options, chain, NULL, roots, error);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     return status;
 }
 
@@ -139,7 +139,7 @@ strum_taut_roots *search_roots(search *s, const double *t, double beyond)
     wider.lowest = fmax(wider.lowest - beyond, 0.5 * wider.lowest);
     wider.highest += beyond;
     note_status(s, roots_of(&wider, &rest, chain, s->last, &roots, s->error));
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     return roots;
 }
 
@@ -156,13 +156,13 @@ double search_trial(search *s, const double *t)
     strum_taut_roots *roots = NULL;
     if (chain != NULL)
         note_status(s, roots_of(p, &rest, chain, s->last, &roots, s->error));
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     if (roots != NULL) {
         const int limiting = strum_absorber_limiting(roots);
         objective = limiting >= 0 ? damping_ratio(&roots->roots[limiting]) : 0;
         s->answered = true;
         s->met = s->met || limiting >= 0;
-        strum_taut_roots_free(&s->last);
+        strum_taut_roots_free(s->last);
         s->last = roots;
     }
     if (objective > s->best) {

@@ -97,9 +97,10 @@ strum_status strum_taut_make(const strum_taut_component *components, size_t coun
     made->free_left = left == STRUM_TAUT_FREE;
     made->free_right = right == STRUM_TAUT_FREE;
     const strum_status status = fill(made, components, count, error);
-    if (status != STRUM_OK)
-        strum_taut_free(&made);
-    *chain = made;
+    if (status == STRUM_OK)
+        *chain = made;
+    else
+        strum_taut_free(made);
     return status;
 }
 
@@ -110,17 +111,15 @@ strum_taut *taut_ref(const strum_taut *chain)
     return counted;
 }
 
-void strum_taut_free(strum_taut **chain)
+void strum_taut_free(strum_taut *chain)
 {
-    strum_taut *c = *chain;
-    *chain = NULL;
-    if (c == NULL || atomic_fetch_sub(&c->references, 1) > 1)
+    if (chain == NULL || atomic_fetch_sub(&chain->references, 1) > 1)
         return;
-    for (size_t i = 0; i < c->count; i++)
-        if (c->components[i].model != NULL && c->components[i].model->release != NULL)
-            c->components[i].model->release(&c->components[i]);
-    free(c->components);
-    free(c);
+    for (size_t i = 0; i < chain->count; i++)
+        if (chain->components[i].model != NULL && chain->components[i].model->release != NULL)
+            chain->components[i].model->release(&chain->components[i]);
+    free(chain->components);
+    free(chain);
 }
 
 double strum_taut_length(const strum_taut *chain)

@@ -37,12 +37,11 @@ void taut_roots_sort(strum_taut_roots *out, bool oscillating)
         qsort(out->overdamped, out->overdamped_count, sizeof *out->overdamped, by_frequency);
 }
 
-void strum_taut_roots_free(strum_taut_roots **roots)
+void strum_taut_roots_free(strum_taut_roots *roots)
 {
-    if (*roots == NULL)
+    if (roots == NULL)
         return;
-    free((*roots)->roots);
-    free((*roots)->overdamped);
-    free(*roots);
-    *roots = NULL;
+    free(roots->roots);
+    free(roots->overdamped);
+    free(roots);
 }

@@ -223,26 +223,24 @@ strum_status strum_taut_shape_make(const strum_taut *chain, const strum_taut_roo
         if (status == STRUM_OK && spent.status != STRUM_OK)
             status = work_error(&spent, error);
         made->work = NULL;
-        *shape = made;
     }
     free(arrows);
-    if (status != STRUM_OK) {
+    if (status == STRUM_OK)
         *shape = made;
-        strum_taut_shape_free(shape);
-    }
+    else
+        strum_taut_shape_free(made);
     return status;
 }
 
-void strum_taut_shape_free(strum_taut_shape **shape)
+void strum_taut_shape_free(strum_taut_shape *shape)
 {
-    if (*shape == NULL)
+    if (shape == NULL)
         return;
-    strum_taut_free(&(*shape)->chain);
-    free((*shape)->y);
-    free((*shape)->nodes);
-    free((*shape)->antinodes);
-    free(*shape);
-    *shape = NULL;
+    strum_taut_free(shape->chain);
+    free(shape->y);
+    free(shape->nodes);
+    free(shape->antinodes);
+    free(shape);
 }
 
 strum_status strum_taut_shape_sample(const strum_taut_shape *shape, size_t count,

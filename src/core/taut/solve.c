@@ -141,8 +141,9 @@ strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *q
         taut_roots_sort(out, query->count == 0);
     out->evaluations += s.search.evaluations;
     taut_solve_clear(&s);
-    if (status != STRUM_OK)
-        strum_taut_roots_free(&out);
-    *roots = out;
+    if (status == STRUM_OK)
+        *roots = out;
+    else
+        strum_taut_roots_free(out);
     return status;
 }

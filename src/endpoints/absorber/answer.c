@@ -139,7 +139,7 @@ static strum_status write_form(json_writer *json, absorber_solving *s, const cha
                         roots->roots[limiting].decay / roots->roots[limiting].frequency);
     }
     json_close_object(json);
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     return STRUM_OK;
 }
 
@@ -282,7 +282,7 @@ static strum_status write_sweep(json_writer *json, absorber_solving *s,
         json_close_object(json);
     }
     for (int64_t i = 0; rows != NULL && i < r->sweep.points; i++)
-        strum_taut_roots_free(&rows[i].roots);
+        strum_taut_roots_free(rows[i].roots);
     free(rows);
     free(modes);
     return status;

@@ -64,7 +64,7 @@ static bool respond(const void *data, answer *a)
     absorber_begin(&s, r, a);
     const strum_status status = solve(&s, &best, &roots, &late, &error);
     if (status != STRUM_OK) {
-        strum_taut_roots_free(&roots);
+        strum_taut_roots_free(roots);
         chain_refuse(&error, status, a->problem);
         return false;
     }
@@ -85,7 +85,7 @@ static bool respond(const void *data, answer *a)
     warn_of_borders(&s, &best, limiting >= 0 ? roots->roots[limiting].frequency : NAN,
                     roots->count);
     const bool good = absorber_write(&s, &best, roots);
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     return good;
 }
 

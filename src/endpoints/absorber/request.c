@@ -182,7 +182,7 @@ double absorber_cost_us(const void *data)
     } else if (chain_make(&r->in, &lowest, &chain, NULL) == STRUM_OK) {
         const double modes = (double)strum_taut_count(chain, r->band[1]) -
                              (double)strum_taut_count(chain, r->band[0]);
-        strum_taut_free(&chain);
+        strum_taut_free(chain);
         work += modes * variables * (520 * variables + 780 * modes);
     }
     return fmin(work, 120.0 * (double)r->max_evaluations);

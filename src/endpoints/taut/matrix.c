@@ -93,7 +93,7 @@ static bool respond(const void *data, answer *a)
     }
     json_close_array(json);
     json_close_object(json);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     if (status != STRUM_OK)
         chain_refuse(&fault, status, a->problem);
     return status == STRUM_OK;

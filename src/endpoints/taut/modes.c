@@ -101,8 +101,7 @@ static void fill_numbers(request *r, schema_arena *arena, problem *p)
 
 static void free_chain(void *chain)
 {
-    strum_taut *c = chain;
-    strum_taut_free(&c);
+    strum_taut_free(chain);
 }
 
 /* Two shots along the chain; with many varying cables these are too much for the thread that
@@ -259,7 +258,7 @@ static strum_status write_mode(const request *r, const strum_taut_root *root, an
         write_nodes(json, shape);
     if (status == STRUM_OK && shape != NULL && r->shape_points > 0)
         status = write_shape(json, r, damped, shape, fault);
-    strum_taut_shape_free(&shape);
+    strum_taut_shape_free(shape);
     json_close_object(json);
     return status;
 }
@@ -371,7 +370,7 @@ static strum_status refusal(const request *r, strum_error *fault)
 {
     strum_taut *chain = NULL;
     const strum_status status = chain_make(&r->in, NULL, &chain, fault);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     /* made after all: memory was short then */
     return status != STRUM_OK ? status : STRUM_ERR_MEMORY;
 }
@@ -401,7 +400,7 @@ static bool respond(const void *data, answer *a)
         warn(roots, a);
         status = write_result(r, roots, a, &fault);
     }
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     if (status != STRUM_OK)
         chain_refuse(&fault, status, a->problem);
     return status == STRUM_OK;

@@ -66,7 +66,7 @@ static void hanging_absorber_damping(void **state)
     assert_int_equal(roots->count, 2);
     const strum_taut_root *limiting = &roots->roots[strum_absorber_limiting(roots)];
     check_relative(limiting->frequency, 4.109038741131443, 1e-6);
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
 }
 
 /* With the stiffness free the two modes coalesce: k = 68.8240822771165, R = 15.954079505678644,

@@ -68,8 +68,8 @@ static void drag_on_a_string(void **state)
         assert_int_equal(roots->overdamped_count, overdamped);
         assert_int_equal(overdamped, i == 0 ? 0 : 14);
         assert_int_equal(roots->axis_expected, roots->axis_found);
-        strum_taut_roots_free(&roots);
-        strum_taut_free(&chain);
+        strum_taut_roots_free(roots);
+        strum_taut_free(chain);
     }
 }
 
@@ -97,8 +97,8 @@ static void a_viscous_damper(void **state)
             check_absolute(cabs(csinh(l) + eta[i] * csinh(mu[i] * l) * csinh((1 - mu[i]) * l)),
                            0.0, 1e-12 * cabs(l) * (1.0 + eta[i]));
         }
-        strum_taut_roots_free(&roots);
-        strum_taut_free(&chain);
+        strum_taut_roots_free(roots);
+        strum_taut_free(chain);
     }
 }
 
@@ -131,8 +131,8 @@ static void a_damper_at_midspan(void **state)
             check_relative(roots->overdamped[0].decay, decay, 1e-12);
             assert_true(roots->lost == 3);
         }
-        strum_taut_roots_free(&roots);
-        strum_taut_free(&chain);
+        strum_taut_roots_free(roots);
+        strum_taut_free(chain);
     }
 }
 
@@ -149,8 +149,8 @@ static void a_tuned_mass_damper(void **state)
     check_has_root(roots, CMPLX(2.82915216997, .176784616438), 1e-11);
     check_has_root(roots, CMPLX(3.32266068876, .192772980267), 1e-11);
     check_has_root(roots, 2.0 * M_PI, 1e-13);
-    strum_taut_roots_free(&roots);
-    strum_taut_free(&chain);
+    strum_taut_roots_free(roots);
+    strum_taut_free(chain);
 }
 
 /* ---- Levesque's systems (values of an independent program in 40 digits) ---- */
@@ -169,18 +169,18 @@ static void the_baseline_system(void **state)
     assert_int_equal(roots->expected, 9);
     for (int i = 0; i < 9; i++)
         check_has_root(roots, want[i], 1e-13);
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     /* the independent program counts 47 roots here */
     roots = roots_of(chain, 0, 0.5, 200.3, 40.0);
     assert_int_equal(roots->expected, 47);
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     /* by number: 35 branches, all found; and one of them alone */
     roots = roots_of(chain, 35, 0, 0, 0);
     assert_int_equal(roots->count, 35);
     check_relative(roots->roots[28].decay / roots->roots[28].frequency, 0.0174194255500105,
                    1e-12);
-    strum_taut_roots_free(&roots);
-    strum_taut_free(&chain);
+    strum_taut_roots_free(roots);
+    strum_taut_free(chain);
 }
 
 /* One branch leaves (the joint's own motion, undamped mode 31) and is overdamped from R =
@@ -200,8 +200,8 @@ static void the_leaving_branch(void **state)
         assert_int_equal(roots->overdamped_count, i == 0 ? 0 : 2);
         if (i == 1)
             assert_int_equal(roots->overdamped[0].mode, 31);
-        strum_taut_roots_free(&roots);
-        strum_taut_free(&chain);
+        strum_taut_roots_free(roots);
+        strum_taut_free(chain);
     }
     /* R -> infinity: one bar (modes 29 and 31 of it), and so is R = 1e12 but for some 1e-5 */
     strum_taut *rigid = levesque(9.0, 0.12, INFINITY), *stiff = levesque(9.0, 0.12, 1e12);
@@ -218,10 +218,10 @@ static void the_leaving_branch(void **state)
         check_relative(frequency_of(rigid, k), frequency_of(single, k), 1e-13);
         check_has_root(roots, frequency_of(single, k), 1e-6);
     }
-    strum_taut_roots_free(&roots);
-    strum_taut_free(&rigid);
-    strum_taut_free(&stiff);
-    strum_taut_free(&single);
+    strum_taut_roots_free(roots);
+    strum_taut_free(rigid);
+    strum_taut_free(stiff);
+    strum_taut_free(single);
 }
 
 /* Branch A (undamped 3.2147 rad/s) and B (5.0282): loss ratios against R. */
@@ -240,7 +240,7 @@ static void branches_of_a_hanging_absorber(void **state)
     assert_int_equal(strum_taut_follow(chain, 2, factors, 7, NULL, r, NULL), STRUM_OK);
     for (int i = 0; i < 7; i++)
         check_relative(r[i].decay / r[i].frequency, b[i], 5e-4);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     /* A reaches the imaginary axis at R = 34.80882652, as a double root with decay 4.29835518
      */
     chain = hanging(68.45, 34.80882651606836);
@@ -249,7 +249,7 @@ static void branches_of_a_hanging_absorber(void **state)
     assert_true(r[0].frequency > 0.0 && r[1].frequency == 0.0);
     check_relative(r[0].decay, 4.29835517918709, 1e-6);
     check_relative(r[1].decay, 4.29835517918709, 1e-3);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 /* The pole coalescence of the hanging absorber over (k, R), and of modes 29/31 over (MR, R). */
@@ -265,7 +265,7 @@ static void exceptional_points_are_recognised(void **state)
         check_absolute(cabs(w - CMPLX(3.95125073976, .921022475352)), 0.0, 1e-5);
         assert_true(roots->roots[i].exceptional < 1e-8);
     }
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     /* by number too: both modes end there */
     const long numbers[2] = {1, 2};
     const strum_taut_query query = {.numbers = numbers, .count = 2};
@@ -277,8 +277,8 @@ static void exceptional_points_are_recognised(void **state)
         assert_int_equal(roots->roots[i].mode, numbers[i]);
         check_absolute(cabs(w - CMPLX(3.95125073976, .921022475352)), 0.0, 1e-5);
     }
-    strum_taut_roots_free(&roots);
-    strum_taut_free(&chain);
+    strum_taut_roots_free(roots);
+    strum_taut_free(chain);
     const double ratio = 23.890639081849, mass = 0.4 * ratio;
     chain = levesque(mass, mass * 0.16 / 12.0, 2328.0254647579);
     roots = roots_of(chain, 0, 122.0, 127.0, 40.0);
@@ -290,15 +290,15 @@ static void exceptional_points_are_recognised(void **state)
             seen++;
         }
     assert_int_equal(seen, 2);
-    strum_taut_roots_free(&roots);
-    strum_taut_free(&chain);
+    strum_taut_roots_free(roots);
+    strum_taut_free(chain);
     /* none at the tuning that Levesque uses */
     chain = hanging(68.45, 15.0);
     roots = roots_of(chain, 0, 0.5, 7.0, 5.0);
     for (size_t i = 0; i < roots->count; i++)
         assert_true(roots->roots[i].exceptional > 1e-2);
-    strum_taut_roots_free(&roots);
-    strum_taut_free(&chain);
+    strum_taut_roots_free(roots);
+    strum_taut_free(chain);
 }
 
 /* Muller's method from the undamped frequencies hops near the coalescence; the count shows it.
@@ -327,9 +327,9 @@ static void muller_is_watched(void **state)
             hopped += own != muller->roots[i].mode;
         }
         found += muller->hopped;
-        strum_taut_roots_free(&muller);
-        strum_taut_roots_free(&certain);
-        strum_taut_free(&chain);
+        strum_taut_roots_free(muller);
+        strum_taut_roots_free(certain);
+        strum_taut_free(chain);
     }
     assert_int_equal(found, hopped);
     assert_true(hopped > 0);
@@ -358,13 +358,13 @@ static void guesses_are_certified(void **state)
         }
         if (i == 0)
             assert_true(roots->evaluations < full->evaluations);
-        strum_taut_roots_free(&roots);
+        strum_taut_roots_free(roots);
         query.guess_count = 5;
     }
-    strum_taut_roots_free(&guesses);
-    strum_taut_roots_free(&full);
-    strum_taut_free(&before);
-    strum_taut_free(&after);
+    strum_taut_roots_free(guesses);
+    strum_taut_roots_free(full);
+    strum_taut_free(before);
+    strum_taut_free(after);
 }
 
 /* A guess that leads to the conjugate of a known root leads to no other one. */
@@ -387,9 +387,9 @@ static void a_conjugate_is_no_other_root(void **state)
     assert_int_equal(roots->count, 2);
     for (size_t k = 0; k < 2; k++)
         check_relative(roots->roots[k].frequency, full->roots[k].frequency, 1e-12);
-    strum_taut_roots_free(&roots);
-    strum_taut_roots_free(&full);
-    strum_taut_free(&chain);
+    strum_taut_roots_free(roots);
+    strum_taut_roots_free(full);
+    strum_taut_free(chain);
 }
 
 /* Free at both ends: a rigid motion without frequency; drag makes its velocity die out. */
@@ -408,8 +408,8 @@ static void rigid_motions(void **state)
     assert_int_equal(roots->axis_expected, 2); /* s = 0 and s = -R/rho */
     assert_int_equal(roots->overdamped_count, 1);
     check_relative(roots->overdamped[0].decay, 0.5, 1e-13);
-    strum_taut_roots_free(&roots);
-    strum_taut_free(&chain);
+    strum_taut_roots_free(roots);
+    strum_taut_free(chain);
 }
 
 /* ---- random chains against spectral elements ---- */
@@ -471,8 +471,8 @@ static void random_chains_agree_with_a_second_method(void **state)
             assert_true(v.max_residual < 1e-11);
             compared++;
         }
-        strum_taut_roots_free(&roots);
-        strum_taut_free(&chain);
+        strum_taut_roots_free(roots);
+        strum_taut_free(chain);
     }
     assert_true(compared >= 50);
 }

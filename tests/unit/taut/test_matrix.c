@@ -16,7 +16,7 @@ static void matrix_of(const strum_taut_component *part, double _Complex w, doubl
     strum_error fault = {0};
     if (strum_taut_component_matrix(chain, 0, creal(w), cimag(w), f, &fault) != STRUM_OK)
         fail_msg("matrix: %s", fault.reason);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 static void check_matrix(const double _Complex got[4], const double _Complex want[4],
@@ -320,7 +320,7 @@ static void pieces_make_the_whole(void **state)
             strum_taut *chain = fixed_chain(pieces, 3);
             assert_int_equal(strum_taut_matrix(chain, creal(at[i]), cimag(at[i]), f, NULL),
                              STRUM_OK);
-            strum_taut_free(&chain);
+            strum_taut_free(chain);
             check_matrix(f, want, 1e-11);
         }
 }
@@ -341,7 +341,7 @@ static void a_chain_multiplies_from_the_right(void **state)
                                      b[2] * a[0] + b[3] * a[2], b[2] * a[1] + b[3] * a[3]};
     strum_taut *chain = fixed_chain(parts, 2);
     assert_int_equal(strum_taut_matrix(chain, w, 0.0, f, NULL), STRUM_OK);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     check_matrix(f, want, 1e-13);
     assert_true(cabs(a[0] * b[1] + a[1] * b[3] - f[1]) > 1e-3 * cabs(f[1]));
 }
@@ -373,7 +373,7 @@ static void every_chain_is_reciprocal(void **state)
                          STRUM_OK);
         const double size = cabs(f[0] * f[3]) + cabs(f[1] * f[2]);
         assert_true(cabs(f[0] * f[3] - f[1] * f[2] - 1.0) < 1e-13 * (1.0 + size));
-        strum_taut_free(&chain);
+        strum_taut_free(chain);
     }
 }
 
@@ -405,7 +405,7 @@ static void limits_are_reached(void **state)
                                                 part_body(5000, 5000, &links[1], NULL, 1)};
         strum_taut *chain = fixed_chain(hinged, 2);
         assert_int_equal(strum_taut_matrix(chain, creal(w), cimag(w), g, NULL), STRUM_OK);
-        strum_taut_free(&chain);
+        strum_taut_free(chain);
         check_matrix(f, g, 1e-12);
         /* without mass: a piece of cable without mass, L_c/T */
         const double _Complex straight[4] = {1.0, 0.8 / 5000.0, 0.0, 1.0};
@@ -450,13 +450,13 @@ static void faults_are_told(void **state)
     chain = fixed_chain(&pole, 1);
     assert_int_equal(strum_taut_matrix(chain, 4.0, 0.0, f, &fault), STRUM_ERR_IMPOSSIBLE);
     assert_non_null(strstr(fault.reason, "component 1"));
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     const strum_taut_component far = part_cable(100.0, 1.0, 1e4, 0.0);
     chain = fixed_chain(&far, 1);
     assert_int_equal(strum_taut_matrix(chain, 1.0, 100.0, f, &fault), STRUM_ERR_RANGE);
     assert_int_equal(strum_taut_component_matrix(chain, 1, 1.0, 0.0, f, &fault),
                      STRUM_ERR_RANGE);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     const strum_taut_link bad = {-0.1, 0.2, 1.0, 0.0};
     const strum_taut_component wrong[] = {
         part_cable(0.0, 1.0, 1.0, 0.0),     part_cable(1.0, -1.0, 1.0, 0.0),

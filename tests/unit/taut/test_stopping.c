@@ -48,7 +48,7 @@ static strum_status solve(const strum_taut *chain, const strum_options *options,
     strum_taut_roots *roots;
     const strum_status status = strum_taut_solve(chain, &query, options, &roots, NULL);
     *figure = roots != NULL ? roots->roots[roots->count - 1].frequency : NAN;
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     return status;
 }
 
@@ -71,7 +71,7 @@ static strum_status shape(const strum_taut *chain, const strum_options *options,
     *figure = NAN;
     if (made != NULL && strum_taut_shape_sample(made, 9, points, NULL) == STRUM_OK)
         *figure = creal(points[2].displacement);
-    strum_taut_shape_free(&made);
+    strum_taut_shape_free(made);
     return status;
 }
 
@@ -82,7 +82,7 @@ static strum_status verify(const strum_taut *chain, const strum_options *options
     strum_verification v;
     const strum_status status = strum_taut_verify(chain, roots, options, &v, NULL);
     *figure = status == STRUM_OK ? (double)v.modes_expected : NAN;
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     return status;
 }
 
@@ -117,7 +117,7 @@ static void undamped_calls_can_be_stopped(void **state)
     check_call(solve, chain);
     check_call(shape, chain);
     check_call(verify, chain);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 static void damped_calls_can_be_stopped(void **state)
@@ -128,7 +128,7 @@ static void damped_calls_can_be_stopped(void **state)
     check_call(follow, chain);
     check_call(shape, chain);
     check_call(verify, chain);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 /* A loop of pi metres has as many nodes as its mode number less one. */
@@ -143,7 +143,7 @@ static void a_shape_has_so_many_nodes_at_most(void **state)
     const double *nodes;
     assert_int_equal(strum_taut_shape_make(chain, &root, NULL, &made, &error), STRUM_OK);
     assert_int_equal(strum_taut_shape_nodes(made, &nodes), STRUM_TAUT_NODES_MAX / 2 - 1);
-    strum_taut_shape_free(&made);
+    strum_taut_shape_free(made);
     for (double w = 2.0 * STRUM_TAUT_NODES_MAX; w < 1e120; w *= 1e30) {
         root.frequency = w;
         assert_int_equal(strum_taut_shape_make(chain, &root, NULL, &made, &error),
@@ -152,7 +152,7 @@ static void a_shape_has_so_many_nodes_at_most(void **state)
     }
     root.frequency = 1e200; /* its square is beyond a double */
     assert_int_equal(strum_taut_shape_make(chain, &root, NULL, &made, &error), STRUM_ERR_RANGE);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 int main(void)

@@ -24,7 +24,7 @@ static void a_string_has_its_harmonics(void **state)
                 const double k = (double)numbers[i] - 0.5 * l - 0.5 * r;
                 check_absolute(w[i], k * unit, 1e-14 * k * unit);
             }
-            strum_taut_free(&chain);
+            strum_taut_free(chain);
         }
 }
 
@@ -40,7 +40,7 @@ static void code_aster_sdnl138(void **state)
         const double periods = hertz[i] * 2.0 * M_PI;
         /* the published values are good to about 9 digits: the tension comes from a strain */
         check_relative(frequency_of(chain, 1), periods, 1e-8);
-        strum_taut_free(&chain);
+        strum_taut_free(chain);
     }
 }
 
@@ -53,7 +53,7 @@ static void a_vertical_cable(void **state)
     strum_taut *chain = fixed_chain(&part, 1);
     for (int k = 0; k < 4; k++)
         check_relative(frequency_of(chain, k + 1), want[k], 5e-12);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 /* WKB is high by (1/(8 u0) - 1/(8 u1))/(n pi), u = 2 w sqrt(rho T)/T', at leading order. */
@@ -69,8 +69,8 @@ static void wkb_errs_as_predicted(void **state)
         const double lead = (0.125 / u0 - 0.125 / u1) / ((double)n * M_PI);
         check_relative(error, lead, 0.02);
     }
-    strum_taut_free(&a);
-    strum_taut_free(&b);
+    strum_taut_free(a);
+    strum_taut_free(b);
 }
 
 /* cot(b/2) = r b/2, beta = w L sqrt(m/T) [closed forms]; antisymmetric modes see no mass. */
@@ -90,7 +90,7 @@ static void a_mass_at_midspan(void **state)
             check_relative(frequency_of(chain, 2 * k + 1), want[i][k], 1e-11);
         check_relative(frequency_of(chain, 2), 2.0 * M_PI, 1e-14);
         check_relative(frequency_of(chain, 4), 4.0 * M_PI, 1e-14);
-        strum_taut_free(&chain);
+        strum_taut_free(chain);
     }
 }
 
@@ -106,7 +106,7 @@ static void equal_masses(void **state)
     strum_taut *chain = fixed_chain(parts, 7);
     for (int k = 0; k < 3; k++)
         check_relative(frequency_of(chain, k + 1), want[k], 1e-11);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 static void properties_of_masses(void **state)
@@ -134,11 +134,11 @@ static void properties_of_masses(void **state)
     assert_true(frequency_of(e, 1) < 1e-5);
     check_relative(frequency_of(e, 2), M_PI / (1.0 - mu), 1e-11);
     check_relative(frequency_of(e, 4), M_PI / mu, 1e-11);
-    strum_taut_free(&a);
-    strum_taut_free(&b);
-    strum_taut_free(&c);
-    strum_taut_free(&d);
-    strum_taut_free(&e);
+    strum_taut_free(a);
+    strum_taut_free(b);
+    strum_taut_free(c);
+    strum_taut_free(d);
+    strum_taut_free(e);
 }
 
 /* A spring to ground at midspan: cot(b/2) = -kappa/(2 b), kappa = k L/T; rigid: the half
@@ -162,7 +162,7 @@ static void a_spring_at_midspan(void **state)
             /* a rigid spring leaves even modes in pairs */
             check_relative(frequency_of(chain, k + 1), (double)(k + 1) * M_PI, 1e-13);
         }
-        strum_taut_free(&chain);
+        strum_taut_free(chain);
     }
 }
 
@@ -183,12 +183,12 @@ static void bodies_without_cable(void **state)
     assert_int_equal(strum_taut_frequencies(chain, &second, 1, NULL, &w, &fault),
                      STRUM_ERR_IMPOSSIBLE);
     assert_string_equal(fault.reason, "the chain has only 1 modes");
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     const strum_taut_component still[2] = {part_mass(1.0), part_hanging(1.0, 1.0, 0.0)};
     chain = fixed_chain(still, 2);
     assert_int_equal(strum_taut_frequencies(chain, &second, 1, NULL, &w, &fault),
                      STRUM_ERR_IMPOSSIBLE);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 /* ---- published and independent values ---- */
@@ -223,15 +223,15 @@ static void independent_values(void **state)
     strum_taut *chain = fixed_chain(baseline, 3);
     for (int i = 0; i < 6; i++)
         check_relative(frequency_of(chain, k_baseline[i]), w_baseline[i], 1e-13);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     chain = fixed_chain(lumps, 5);
     for (int i = 0; i < 5; i++)
         check_relative(frequency_of(chain, k_lumps[i]), w_lumps[i], 1e-13);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     chain = fixed_chain(hanging, 3);
     for (int i = 0; i < 5; i++)
         check_relative(frequency_of(chain, i + 1), w_hanging[i], 1e-13);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 /* N = 380: L 2000 m, T 20 kN, 2 kg/m; x_i = round(L (i + .35 sin 2.1 i)/(N + 1), mm),
@@ -281,9 +281,9 @@ static void three_hundred_and_eighty_masses(void **state)
         assert_int_equal(strum_taut_shape_make(chain, &root, NULL, &shape, NULL), STRUM_OK);
         assert_int_equal(strum_taut_shape_nodes(shape, &nodes), k);
         assert_int_equal(strum_taut_shape_antinodes(shape, &antinodes), k + 1);
-        strum_taut_shape_free(&shape);
+        strum_taut_shape_free(shape);
     }
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 static void a_thousand_components(void **state)
@@ -297,8 +297,8 @@ static void a_thousand_components(void **state)
     assert_int_equal(v.modes_found, 1000);
     assert_true(v.max_relative_difference < 1e-11);
     assert_true(v.max_residual < 1e-13);
-    strum_taut_roots_free(&roots);
-    strum_taut_free(&chain);
+    strum_taut_roots_free(roots);
+    strum_taut_free(chain);
 }
 
 /* Two weakly coupled halves: 11.10686489/11.10811975 rad/s (independent); much weaker still. */
@@ -320,7 +320,7 @@ static void near_degenerate_pairs(void **state)
         check_absolute(2.0 * k * 5000.0 * cos(20.0 * k) / (heavy * w * w) - sin(20.0 * k), 0.0,
                        1e-13);
         assert_int_equal(strum_taut_count(chain, half * (1.0 - 1e-10)), 1);
-        strum_taut_free(&chain);
+        strum_taut_free(chain);
     }
 }
 
@@ -337,7 +337,7 @@ static void an_exactly_double_mode(void **state)
     assert_int_equal(strum_taut_count(chain, 1.0 + 1e-9), 3);
     check_relative(frequency_of(chain, 2), 1.0, 1e-12);
     check_relative(frequency_of(chain, 3), 1.0, 1e-12);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 /* ---- shapes ---- */
@@ -371,7 +371,7 @@ static void check_shape(const strum_taut *chain, long mode, const double *nodes,
         check_absolute(tops[i].x, antinodes[i].x, 1e-8);
         check_absolute(tops[i].amplitude, antinodes[i].amplitude, 1e-9);
     }
-    strum_taut_shape_free(&shape);
+    strum_taut_shape_free(shape);
 }
 
 static void nodes_and_antinodes_of_case_1(void **state)
@@ -404,7 +404,7 @@ static void nodes_and_antinodes_of_case_1(void **state)
         }
         check_shape(chain, mode, nodes, (size_t)mode - 1, tops, (size_t)mode);
     }
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 static void shapes_satisfy_the_equations(void **state)
@@ -446,9 +446,9 @@ static void shapes_satisfy_the_equations(void **state)
         assert_true(largest <= 1.0 + 1e-12);
         assert_true(p[0].displacement == 0.0);
         check_absolute(creal(p[2980].force), 0.0, 1e-9 * 5000.0);
-        strum_taut_shape_free(&shape);
+        strum_taut_shape_free(shape);
     }
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 /* ---- random chains against Wittrick and Williams' count ---- */
@@ -509,8 +509,8 @@ static void random_chains_agree_with_a_second_method(void **state)
         assert_true(v.max_relative_difference < 1e-6);
         for (size_t i = 1; i < roots->count; i++)
             assert_true(roots->roots[i].frequency >= roots->roots[i - 1].frequency);
-        strum_taut_roots_free(&roots);
-        strum_taut_free(&chain);
+        strum_taut_roots_free(roots);
+        strum_taut_free(chain);
     }
 }
 
@@ -522,7 +522,7 @@ static void bands_and_bad_queries(void **state)
     assert_int_equal(roots->count, 7); /* modes 3 to 9 */
     assert_int_equal(roots->roots[0].mode, 3);
     assert_int_equal(roots->overdamped_count, 0);
-    strum_taut_roots_free(&roots);
+    strum_taut_roots_free(roots);
     strum_error fault;
     const long twice[2] = {2, 2};
     const strum_taut_query bad[4] = {{.numbers = twice, .count = 2},
@@ -534,7 +534,7 @@ static void bands_and_bad_queries(void **state)
                          STRUM_ERR_RANGE);
         assert_null(roots);
     }
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
 }
 
 /* A shape keeps what it needs of its chain, whichever is freed first (seen by
@@ -551,11 +551,11 @@ static void a_shape_outlives_its_chain(void **state)
         strum_taut_make(&string, 1, STRUM_TAUT_FIXED, STRUM_TAUT_FIXED, &chain, NULL),
         STRUM_OK);
     assert_int_equal(strum_taut_shape_make(chain, &first, NULL, &shape, NULL), STRUM_OK);
-    strum_taut_free(&chain);
+    strum_taut_free(chain);
     assert_int_equal(strum_taut_shape_sample(shape, 5, points, NULL), STRUM_OK);
     for (int k = 0; k < 5; k++)
         check_absolute(creal(points[k].displacement), sin(M_PI * k / 4), 1e-12);
-    strum_taut_shape_free(&shape);
+    strum_taut_shape_free(shape);
 }
 
 /* An error names the component by its number, not only in its text. */
