@@ -10,6 +10,22 @@
  * one at its right: right = F left. F of a chain is F_n ... F_2 F_1 (Levesque's equation 2-4
  * multiplies in the other order, which is right only where every component is symmetric).
  *
+ *     strum_taut_component part = {.kind = STRUM_TAUT_CABLE};
+ *     strum_taut *chain = NULL;
+ *     strum_taut_roots *roots = NULL;
+ *     strum_error error;
+ *     const long numbers[] = {1, 2, 3};
+ *     const strum_taut_query query = {.numbers = numbers, .count = 3};
+ *     part.tension_left = part.tension_right = 5000.0;
+ *     part.cable.length = 50.0;
+ *     part.cable.mass_per_length = 1.0;
+ *     if (strum_taut_make(&part, 1, STRUM_TAUT_FIXED, STRUM_TAUT_FIXED, &chain, &error) == STRUM_OK &&
+ *         strum_taut_solve(chain, &query, NULL, &roots, &error) == STRUM_OK)
+ *         for (size_t i = 0; i < roots->count; i++)
+ *             printf("%g rad/s\n", roots->roots[i].frequency);
+ *     strum_taut_roots_free(roots);
+ *     strum_taut_free(chain);
+ *
  * Every frequency is certain by a count: the undamped modes by the number of modes below a
  * frequency (a signed shooting count), the damped ones by the argument principle on the entire
  * characteristic function.

@@ -90,6 +90,44 @@ def test_every_header_compiles_alone(installed, compiler, tmp_path):
         run(compiler, *language(compiler), *WARNINGS, "-fsyntax-only", *installed.flags("--cflags"), source)
 
 
+# What the examples at the head of the headers take for given.
+GIVEN = """
+#include <stdio.h>
+extern strum_catenary catenary;
+extern strum_cable cable;
+extern strum_modes_params params;
+extern strum_modes *modes;
+extern strum_status status;
+extern strum_error error;
+bool user_pressed_stop(void *context);
+__typeof__(*((strum_absorber_params *)0)->build) build;
+"""
+
+
+def example_of(header):
+    """The call that the head comment shows: its indented block that ends a statement of strum's."""
+    head = re.search(r"^/\*\n.*?\*/", (ROOT / "include/strum" / header).read_text(encoding="utf-8"), re.S | re.M)
+    blocks = re.split(r"\n \*(?!     ).*", head[0]) if head else []
+    shown = [re.sub(r"^ \*", "", block, flags=re.M) for block in blocks if "strum_" in block and ";" in block]
+    return shown[0] if shown else None
+
+
+EXAMPLES = {header: example_of(header) for header in HEADERS if header != "version.h"}
+
+
+def test_most_headers_show_a_call():
+    assert {"absorber.h", "catenary.h", "forced.h", "handbook.h", "inclined.h", "modes.h", "options.h", "series.h",
+            "status.h", "taut.h"} <= {header for header, shown in EXAMPLES.items() if shown}
+
+
+@pytest.mark.parametrize("header", [header for header, shown in EXAMPLES.items() if shown])
+def test_the_call_at_the_head_of_a_header_compiles(installed, header, tmp_path):
+    source = tmp_path / "example.c"
+    includes = "".join(f"#include <strum/{name}>\n" for name in HEADERS)
+    source.write_text(f"{includes}{GIVEN}void example(void)\n{{\n{EXAMPLES[header]}\n}}\n", encoding="utf-8")
+    run("gcc", "-std=gnu17", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *installed.flags("--cflags"), source)
+
+
 def test_a_host_may_use_the_private_names(installed, tmp_path):
     """Every private name of the library is also a function of the host, which ends the program when it is called."""
     private = symbols("--defined-only", installed.libraries / "libstrum.a") - declared(installed.prefix)
