@@ -12,6 +12,11 @@ LARGE = [
     (PATH, {"span_m": 100, "length_m": 110, "modes": 150, "shape_points": 900, "eta_normal": 0.1}, "/shape_points"),
     (INCLINED, {"epsilon": 0.18, "inclination_deg": 20, "lambda_squared": 38, "modes": 200, "shape_points": 1000},
      "/shape_points"),
+    ("/v1/taut/modes", {"tension_N": 100, "components": [{"type": "cable", "length_m": 10, "mass_kg_per_m": 1}],
+                        "modes": 200, "shape_points": 2000}, "/shape_points"),
+    ("/v1/taut/modes", {"tension_N": 100, "components": [{"type": "cable", "length_m": 10, "mass_kg_per_m": 1,
+                                                          "drag_N_s_per_m2": 0.1}],
+                        "modes": 200, "shape_points": 1000}, "/shape_points"),
     (FORCED, {"sag_parameter": 0.9, "frequency_ratios": [2], "profiles_at": [0.1 + i / 50 for i in range(100)],
               "profile_points": 2000}, "/profiles_at"),
 ]

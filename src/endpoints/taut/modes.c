@@ -187,6 +187,21 @@ static double cost_us(const void *data)
     return work;
 }
 
+/* Of the mode shapes: modes times points. */
+static double answer_bytes(const void *data, const char **pointer)
+{
+    static const size_t keys = sizeof "{\"x_m\":,\"displacement\":,\"force_N_per_m\":},";
+    const request *r = data;
+    const bool damped = r->chain != NULL && strum_taut_is_damped(r->chain);
+    const double numbers = 1 + 2 * (damped ? 3 : 1); /* {"re":, "im":} */
+    const double modes = by_band(r) ? r->band_last - r->band_below : (double)r->number_count;
+    *pointer = "/shape_points";
+    /* A damped band may hold fewer roots than modes; one from the first mode on may be uncounted. */
+    if (by_band(r) && (damped || r->band_below == 0))
+        return 0;
+    return modes * (double)r->shape_points * ((double)keys + numbers * ANSWER_NUMBER_BYTES);
+}
+
 /* ---- answering ---- */
 
 static void write_nodes(json_writer *json, const strum_taut_shape *shape)
@@ -412,4 +427,5 @@ const endpoint taut_modes = {
     .request = &request_schema,
     .prepare = prepare,
     .cost_us = cost_us,
+    .answer_bytes = answer_bytes,
     .answer = respond};
