@@ -83,11 +83,14 @@ def test_a_pipe_without_a_reader_does_not_end_it():
         assert daemon.wait(PATIENCE) == 0
 
 
-def has_socket(folder):
-    """Whether the daemon listens (bash, before it, has none)."""
-    for fd in os.listdir(folder):
+def listens(pid):
+    """Whether the process is the daemon and has a socket of its own: until then it is bash, whose numbers are not
+    redirected yet, and which may itself ask a name service through a socket."""
+    if not os.path.samefile(f"/proc/{pid}/exe", PROGRAM):
+        return False
+    for fd in os.listdir(f"/proc/{pid}/fd"):
         try:
-            if os.readlink(f"{folder}/{fd}").startswith("socket:"):
+            if int(fd) > 2 and os.readlink(f"/proc/{pid}/fd/{fd}").startswith("socket:"):
                 return True
         except FileNotFoundError:
             pass
@@ -100,12 +103,11 @@ def test_closed_descriptors_are_not_taken_for_connections(tmp_path, closed):
     command = ["bash", "-c", f'exec "$0" --listen 127.0.0.1:0 --log-requests all {closed}', PROGRAM]
     with subprocess.Popen(command) as daemon:
         try:
-            folder = f"/proc/{daemon.pid}/fd"
-            while not has_socket(folder):
+            while not listens(daemon.pid):
                 assert daemon.poll() is None
             for fd, word in enumerate(("0<", "1>", "2>")):
                 if word in closed:
-                    assert os.readlink(f"{folder}/{fd}") == "/dev/null", fd
+                    assert os.readlink(f"/proc/{daemon.pid}/fd/{fd}") == "/dev/null", fd
         finally:
             daemon.terminate()
         assert daemon.wait(PATIENCE) == 0
