@@ -23,14 +23,14 @@ typedef struct {
 /* Before piece i stands station i; station piece_count is end 2. */
 typedef struct {
     double position, x, z;
-    size_t first, count; /* its attachments: in strum_cable.attachments, sorted by position */
+    size_t first, count; /* its attachments: in strum_hanging.attachments, sorted by position */
 } cable_station;
 
 /* With bending stiffness in the static shape: angle, its derivative, normal force along the
  * rod, by the file that finds the shape. */
 typedef struct cable_rod cable_rod;
 
-struct strum_cable {
+struct strum_hanging {
     atomic_size_t references;
     strum_cable_params params; /* sections and attachments point into the copies below */
     strum_cable_section *sections;
