@@ -11,6 +11,25 @@
  *
  * Units: SI; angles in radians.
  *
+ *     strum_cable_section rope = STRUM_CABLE_SECTION_INIT;
+ *     rope.length = 850;
+ *     rope.mass = 685;
+ *     rope.weight = 5844.118;
+ *     rope.axial_stiffness = 3.27e9;
+ *     strum_cable_params line = STRUM_CABLE_PARAMS_INIT;
+ *     line.sections = &rope;
+ *     line.section_count = 1;
+ *     line.span = 779.6;
+ *     line.rise = 186;
+ *     strum_hanging *hanging;
+ *     strum_error error;
+ *     if (strum_cable_hang(&line, NULL, &hanging, &error) == STRUM_OK) {
+ *         strum_cable_statics statics;
+ *         strum_cable_statics_get(hanging, &statics);
+ *         printf("%.10g N\n", statics.tension_end_2);
+ *         strum_cable_free(hanging);
+ *     }
+ *
  * Ownership: structs are the caller's; a strum_hanging keeps copies of all that it was made from.
  * All functions are re-entrant; an object may be read by many threads at once.
  */
@@ -26,6 +45,10 @@ STRUM_BEGIN_DECLS
 #define STRUM_CABLE_SECTIONS_MAX    1000
 #define STRUM_CABLE_ATTACHMENTS_MAX 1000
 #define STRUM_CABLE_SPANS_MAX       100
+/* Largest size of any number; what must be above 0 is at least 1 over it. */
+#define STRUM_CABLE_SIZE_MAX 1e30
+/* 80 degrees either way. */
+#define STRUM_CABLE_BED_SLOPE_MAX 1.3962634015954636
 
 /* A stretch of cable of one kind, per unstretched metre. */
 typedef struct strum_cable_section {
@@ -115,7 +138,7 @@ typedef enum strum_cable_given {
 typedef struct strum_cable_bed {
     bool present;
     double depth;    /* below end 1, m, >= 0 */
-    double slope;    /* -pi/2 < slope < pi/2 */
+    double slope;    /* within +-STRUM_CABLE_BED_SLOPE_MAX */
     double friction; /* >= 0 */
 } strum_cable_bed;
 
