@@ -24,11 +24,17 @@ strum_status settle_begin(strum_hanging *cable, work *w, cable_settler *s)
     return room ? STRUM_OK : STRUM_ERR_MEMORY;
 }
 
-strum_status settle(cable_settler *s, strum_error *error)
+void settle_cut(cable_settler *s)
 {
     const strum_cable_params *p = &s->cable->params;
     line_cut(s->cable->sections, p->section_count, s->cable->attachments, p->attachment_count,
              &p->bed, &s->line);
+}
+
+strum_status settle(cable_settler *s, strum_error *error)
+{
+    const strum_cable_params *p = &s->cable->params;
+    settle_cut(s);
     double h = s->form.count > 0 ? s->form.pieces[0].h : 0,
            v = s->form.count > 0 ? s->form.pieces[0].v : 0;
     const strum_status status =

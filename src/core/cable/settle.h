@@ -19,6 +19,8 @@ typedef struct {
 
 /* Room for all shapes; STRUM_ERR_MEMORY. */
 strum_status settle_begin(strum_hanging *cable, work *w, cable_settler *s);
+/* Cuts the sections, as they are, into s->line. */
+void settle_cut(cable_settler *s);
 /* Finds s->form for the lengths and s->span as they are. */
 strum_status settle(cable_settler *s, strum_error *error);
 /* Smallest height above the bed of what hangs between its ends; NAN without a bed. */
