@@ -18,7 +18,6 @@ typedef struct {
     double excess;           /* unstretched length - distance */
     double flexibility;      /* SUM l/EA */
     double load;             /* SUM of the sizes of all loads: a scale of forces */
-    double node[CHORD_POINTS], weight[CHORD_POINTS];
 } cable_chord;
 
 /* How far the line's end lies from end 2, and the derivatives by the force at end 1. */
