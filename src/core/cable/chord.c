@@ -86,6 +86,19 @@ static void add_light(const cable_chord *c, const cable_arc *a, double p, double
     m->qq += qq + elastic;
 }
 
+static void add_weightless(const cable_chord *c, const cable_arc *a, double p, double q,
+                           chord_miss *m)
+{
+    const double l = a->length, elastic = l * a->flexibility;
+    const double q_2 = q * q + c->rounding * c->rounding, t = sqrt(p * p + q_2);
+    const double cube = l / (t * t * t);
+    m->along += elastic * p - l * (p > 0 ? q_2 / (t * (t + p)) : 1 - p / t);
+    m->across += l * q / t + elastic * q;
+    m->pp += cube * q_2 + elastic;
+    m->pq -= cube * p * q;
+    m->qq += cube * (p * p + c->rounding * c->rounding) + elastic;
+}
+
 static void add_heavy(const cable_chord *c, const cable_arc *a, double p, double q,
                       chord_miss *m)
 {
@@ -136,7 +149,9 @@ chord_miss chord_reach(const cable_chord *c, double p, double q)
         step(c, piece, &p, &q, &d);
         const double tension = sqrt(p * p + q * q);
         chord_miss m = {0};
-        if (fabs(a->weight) * a->length < LIGHT * tension)
+        if (a->weight == 0)
+            add_weightless(c, a, p, q, &m);
+        else if (fabs(a->weight) * a->length < LIGHT * tension)
             add_light(c, a, p, q, &m);
         else
             add_heavy(c, a, p, q, &m);
