@@ -90,8 +90,6 @@ static bool try_flight(service *s, const evaluation *a, const cache_key *key, fl
     const bool lasting = e && e->status == 200 && !e->transient;
     if (e)
         e->queue_us = queue_us;
-    if (lasting)
-        reply_prebuild(s, e);
     const bool complete = cache_complete(s->cache, f, e);
     if (lasting && share && !e->from_store)
         store_keep(s->store, e);
@@ -111,9 +109,7 @@ void solve_flight(service *s, const evaluation *a, const cache_key *key, flight 
 static void look_up(service *s, const cache_key *key, flight *f)
 {
     entry *e = find_stored(s, key);
-    if (e) {
-        reply_prebuild(s, e);
-    } else {
+    if (!e) {
         problem why = {0};
         problem_set(&why, 404, NOT_STORED);
         e = refusal_entry(key, &why);
