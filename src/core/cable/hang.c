@@ -169,9 +169,8 @@ static strum_status hang(const strum_cable_params *p, strum_hanging *cable, work
         return work_result(w, status, error);
     cable->statics.solutions = 1;
     cable->statics.other_length = NAN;
-    if (p->bed.present || p->stiff)
-        status =
-            error_set(error, STRUM_ERR_METHOD, "a free cable without bending stiffness only");
+    if (p->stiff)
+        status = error_set(error, STRUM_ERR_METHOD, "a cable without bending stiffness only");
     else
         status = p->given == STRUM_CABLE_LENGTHS ? settle(&s, error)
                                                  : ends_find(&s, &cable->statics, error);

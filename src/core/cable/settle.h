@@ -5,6 +5,7 @@
 #define CORE_CABLE_SETTLE_H
 
 #include "core/cable/form.h"
+#include "core/cable/touch.h"
 #include "core/numerics/status.h"
 #include "core/numerics/work.h"
 
@@ -14,7 +15,8 @@ typedef struct {
     double span;
     cable_line line;
     cable_form form; /* memory of the cable */
-    bool warm;       /* the form is a neighbour's: begin from its force */
+    bed_contact *touching;
+    bool warm; /* the form is a neighbour's: begin from its force */
 } cable_settler;
 
 /* Room for all shapes; STRUM_ERR_MEMORY. */
