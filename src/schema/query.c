@@ -71,6 +71,29 @@ static cJSON *field_value(const field *f, const char *value)
     return text_value(value, strlen(value));
 }
 
+static bool is_list(field_kind kind)
+{
+    return kind == FIELD_NUMBERS || kind == FIELD_COMPLEXES;
+}
+
+/* Adds the field to the object; a list that is named again goes on. Takes over `item`. */
+static bool add_field(cJSON *object, const char *name, cJSON *item)
+{
+    cJSON *before = cJSON_GetObjectItemCaseSensitive(object, name);
+    if (item == NULL)
+        return false;
+    if (!cJSON_IsArray(before) || !cJSON_IsArray(item)) {
+        const bool added = cJSON_AddItemToObject(object, name, item);
+        if (!added)
+            cJSON_Delete(item);
+        return added;
+    }
+    while (item->child != NULL)
+        cJSON_AddItemToArray(before, cJSON_DetachItemViaPointer(item, item->child));
+    cJSON_Delete(item);
+    return true;
+}
+
 /* True when the pair may stand in a query string. */
 static bool pair_allowed(const schema *s, const query_pair *pair, field_set *seen, problem *p)
 {
@@ -79,7 +102,7 @@ static bool pair_allowed(const schema *s, const query_pair *pair, field_set *see
         return true; /* the reader names it, with what is near */
     const json_place place = {.name = pair->name};
     const field_kind kind = s->fields[row].kind;
-    if (*seen & row_bit(row)) {
+    if (*seen & row_bit(row) && !is_list(kind)) {
         json_fault(p, &place, "given more than once");
         return false;
     }
@@ -104,9 +127,7 @@ void *schema_read_query(const schema *s, const query_pair *pairs, size_t count,
         const int row = schema_row(s, pairs[i].name, 0);
         cJSON *item =
             row >= 0 ? field_value(&s->fields[row], pairs[i].value) : cJSON_CreateNull();
-        good = item != NULL && cJSON_AddItemToObject(object, pairs[i].name, item);
-        if (!good)
-            cJSON_Delete(item);
+        good = add_field(object, pairs[i].name, item);
     }
     if (!good)
         problem_out_of_memory(p);

@@ -272,7 +272,8 @@ void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f
 /* POST with Accept: text/event-stream. */
 static bool wants_events(const request *r)
 {
-    return r->method == METHOD_POST && r->accept && strstr(r->accept, "text/event-stream");
+    return r->method & (METHOD_POST | METHOD_QUERY) && r->accept &&
+           strstr(r->accept, "text/event-stream");
 }
 
 /* Sends a stored answer. */
@@ -343,7 +344,10 @@ static enum MHD_Result solve_by_query(connection *p)
     q.bytes->size = 0;
     MHD_get_connection_values(p->mhd, MHD_GET_ARGUMENT_KIND, add_pair, &q);
     if (q.too_many)
-        return reply_refusal(p, 400, "more than %d parameters", QUERY_PAIRS_MAX);
+        return reply_refusal(p, 400,
+                             "more than %d parameters; the numbers of a list may stand in one, "
+                             "separated by commas",
+                             QUERY_PAIRS_MAX);
     if (q.bytes->failed)
         return reply_entry(p, NULL, REPLY_HIT);
     /* Keyed apart from bodies: a body may have the same bytes as a query. */
