@@ -30,5 +30,6 @@
 #include <strum/handbook.h>
 #include <strum/taut.h>
 #include <strum/absorber.h>
+#include <strum/identify.h>
 
 #endif

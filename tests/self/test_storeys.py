@@ -23,6 +23,7 @@ BELOW = {
     "core/inclined": ["core/numerics", "core/suspended"],
     "core/taut": ["core/numerics"],
     "core/absorber": ["core/numerics", "core/taut"],
+    "core/identify": ["core/numerics", "core/taut"],
     "json": [],
     "schema": ["json"],
     "endpoints": ["schema", "json"],
