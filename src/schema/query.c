@@ -34,12 +34,12 @@ static cJSON *number_value(const char *value, size_t size)
     return cJSON_CreateNumber(strtod(copy, NULL));
 }
 
-static cJSON *list_value(const char *value)
+static cJSON *list_value(const char *value, bool numbers)
 {
     cJSON *list = cJSON_CreateArray();
     for (const char *at = value; list != NULL;) {
         const size_t size = strcspn(at, ",");
-        cJSON *item = number_value(at, size);
+        cJSON *item = numbers ? number_value(at, size) : text_value(at, size);
         if (item == NULL || !cJSON_AddItemToArray(list, item)) {
             cJSON_Delete(item);
             cJSON_Delete(list);
@@ -60,7 +60,8 @@ static cJSON *field_value(const field *f, const char *value)
         return number_value(value, strlen(value));
     case FIELD_NUMBERS:
     case FIELD_COMPLEXES:
-        return list_value(value);
+    case FIELD_CHOICES:
+        return list_value(value, f->kind != FIELD_CHOICES);
     case FIELD_FLAG:
         if (strcmp(value, "true") == 0 || strcmp(value, "false") == 0)
             return cJSON_CreateBool(value[0] == 't');
