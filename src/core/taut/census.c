@@ -86,6 +86,10 @@ strum_status taut_solve_complete(taut_solve *s, taut_rectangle *box, long *expec
             s->mode[i] = 0;
         for (size_t i = before; i < s->known; i++)
             s->mode[i] = mode_near(s, s->s[i]);
+        if (s->known > before)
+            status = taut_solve_tell_apart(s);
+        if (status != STRUM_OK)
+            return status;
     }
     *found = taut_solve_inside(s, box);
     if (s->search.status != STRUM_OK)

@@ -32,6 +32,11 @@ static taut_value value_at(taut_search *search, dual s, dual factor)
     return value;
 }
 
+taut_value taut_search_at(taut_search *search, cplx s, double factor)
+{
+    return value_at(search, (dual){s, 1.0}, dual_of(factor));
+}
+
 taut_value taut_search_value(taut_search *search, cplx s)
 {
     return value_at(search, (dual){s, 1.0}, dual_of(1.0));

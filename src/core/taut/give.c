@@ -45,14 +45,15 @@ strum_status taut_solve_give(taut_solve *s, size_t i, bool overdamped)
 /* Overdamped roots: all that are known on the axis within `decay`, and those of modes asked. */
 strum_status taut_solve_give_overdamped(taut_solve *s, double decay)
 {
+    const size_t before = s->out->overdamped_count; /* by another run of numbers */
     strum_status status = STRUM_OK;
     for (size_t i = 0; i < s->known && status == STRUM_OK; i++) {
         const double rate = -creal(s->s[i]);
         bool asked = rate <= decay;
         for (size_t k = 0; k < s->query->count; k++)
             asked = asked || s->query->numbers[k] == s->mode[i];
-        bool given = false; /* by another run of numbers */
-        for (size_t k = 0; k < s->out->overdamped_count; k++)
+        bool given = false;
+        for (size_t k = 0; k < before; k++)
             given = given || fabs(s->out->overdamped[k].decay - rate) <= TAUT_SAME * rate;
         if (cimag(s->s[i]) == 0.0 && asked && !given && rate > 0.0)
             status = taut_solve_give(s, i, true);

@@ -39,11 +39,25 @@ strum_status taut_solve_stopped(taut_solve *s);
 /* Follows the branches of modes first..last, as far as the chain has them. */
 strum_status taut_solve_follow(taut_solve *s, long first, long last);
 
+/* ---- groups of modes that coincide without damping (groups.c) ---- */
+
+/* Modes nearer to each other than this share of the spacing make a group. */
+#define TAUT_GROUP 3e-3
+/* Modes nearer than this share of their frequency cannot be followed one by one. */
+#define TAUT_TWINS 1e-5
+
+/* Follows `count` branches from `first` on, about the frequency w, whose neighbours lie `gap`
+ * away; false when it cannot. */
+bool taut_solve_group(taut_solve *s, taut_branch *first, int count, double w, double gap);
+
 /* ---- counting (census.c) ---- */
 
 taut_rectangle taut_solve_box(const taut_solve *s, double lowest, double highest, double decay);
 /* Zeros known in the box; a pair counts twice where the box holds both. */
 long taut_solve_inside(const taut_solve *s, const taut_rectangle *box);
+/* Tells roots on the list apart that lie too near for Newton's method, with those among them
+ * that it has not. */
+strum_status taut_solve_tell_apart(taut_solve *s);
 /* Counts the zeros in the box, moving its borders a little outwards when one lies on them. */
 strum_status taut_solve_count(taut_solve *s, taut_rectangle *box, long *expected);
 /* Counts, and searches for what the branches did not lead to. */
