@@ -57,9 +57,11 @@ static const char *number_end(const char *at, const char *end)
 
 static cJSON *number_value(const char *value, size_t size)
 {
-    char *copy = number_end(value, value + size) == value + size ? strndup(value, size) : NULL;
-    if (copy == NULL)
+    if (number_end(value, value + size) != value + size)
         return text_value(value, size);
+    char *copy = strndup(value, size);
+    if (copy == NULL)
+        return NULL;
     for (char *c = copy; *c != '\0'; c++)
         *c = *c == ' ' ? '+' : *c;
     cJSON *item = cJSON_CreateNumber(strtod(copy, NULL));
