@@ -7,6 +7,8 @@
 
 /* A vector of which orthogonalising leaves less is rounding. */
 #define NOTHING_LEFT 1e-13
+#define LITTLE_LEFT  1e-2
+#define ROUNDS       4
 
 /* Takes from x (and z = K x) its part in the basis; returns the square of its norm. */
 static double orthogonalise(const krylov *b, double *x, double *z)
@@ -26,13 +28,21 @@ bool krylov_add(krylov *b, const double *load)
     if (b->size == b->most)
         return false;
     double *q = b->q + (size_t)b->size * b->n, *z = b->z + (size_t)b->size * b->n;
-    stiffness_solve(b->stiffness, load, q, z);
-    const double before = motion_dot(b->n, q, z);
-    if (!(before > 0))
-        return false;
-    const double square = orthogonalise(b, q, z);
-    if (!(square > NOTHING_LEFT * NOTHING_LEFT * before))
-        return false;
+    double first = 0, square = 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        stiffness_solve(b->stiffness, load, q, z);
+        const double before = motion_dot(b->n, q, z);
+        if (round == 0)
+            first = before;
+        square = orthogonalise(b, q, z);
+        if (!(square > NOTHING_LEFT * NOTHING_LEFT * first))
+            return false;
+        if (square > LITTLE_LEFT * before)
+            break;
+        /* q and z = K q have errors of what they were: what is left is solved for by itself */
+        memcpy(b->load, z, b->n * sizeof *z);
+        load = b->load;
+    }
     const double scale = 1 / sqrt(square);
     for (size_t i = 0; i < b->n; i++) {
         q[i] *= scale;
@@ -43,11 +53,15 @@ bool krylov_add(krylov *b, const double *load)
     return true;
 }
 
+double krylov_left(krylov *b, const double *load)
+{
+    stiffness_solve(b->stiffness, load, b->x, b->load);
+    return fmax(orthogonalise(b, b->x, b->load), 0);
+}
+
 double krylov_tail(krylov *b, int i)
 {
-    double *x = b->x, *z = b->load;
-    stiffness_solve(b->stiffness, b->y + (size_t)i * b->n, x, z);
-    return sqrt(fmax(orthogonalise(b, x, z), 0));
+    return sqrt(krylov_left(b, b->y + (size_t)i * b->n));
 }
 
 /* The load of inertia of an arbitrary motion: every mode has a part in it. */

@@ -30,6 +30,8 @@ strum_status krylov_begin(const motion *m, stiffness *k, int generic, int most, 
 strum_status krylov_extend(krylov *b, int size, work *w);
 /* One more vector, K^-1 `load` without the span of the others; false where nothing is left. */
 bool krylov_add(krylov *b, const double *load);
+/* Square of the part of K^-1 `load` outside the basis, in the norm of K; `load` may not be b->load. */
+double krylov_left(krylov *b, const double *load);
 /* How far K^-1 M of vector `i` reaches out of the basis, in the norm of K. */
 double krylov_tail(krylov *b, int i);
 

@@ -5,7 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/cable/damped.h"
 #include "core/cable/inertia.h"
+#include "core/cable/spectrum_damped.h"
 
 /* Of a mode's error: what leaves the basis, squared, and the last coefficients on each element,
  * squared, both relative to 1. */
@@ -19,7 +21,7 @@
 
 /* Squares of what the last two functions of each kind carry, over all elements; the stiffness
  * energy of the mode is 1. */
-static double mesh_error(const motion *m, const double *v)
+double spectrum_mesh_error(const motion *m, const double *v)
 {
     double sum = 0;
     for (int i = 0; i < m->element_count; i++) {
@@ -94,7 +96,7 @@ static strum_status keep_undamped(const motion *m, const reduced *r, int count, 
         double *x = vectors + (size_t)i * n;
         expand(r->basis, v, x);
         const double mu = quotient(m, r, v, x, room);
-        const double error = mesh_error(m, x);
+        const double error = spectrum_mesh_error(m, x);
         s->modes[i] = (spectrum_mode){I / sqrt(mu), x, NULL, error};
         s->error = fmax(s->error, error);
     }
@@ -184,7 +186,10 @@ static strum_status attempt(const strum_hanging *cable, const motion_choice *cho
     strum_status status = motion_make(cable, choice, memory, &s->motion);
     if (status == STRUM_OK)
         status = stiffness_make(&s->motion, memory, &s->stiffness);
-    return status == STRUM_OK ? undamped(choice->modes, memory, s) : status;
+    if (status != STRUM_OK)
+        return status;
+    return damped_needed(&s->motion) ? spectrum_damped(choice->modes, memory, s)
+                                     : undamped(choice->modes, memory, s);
 }
 
 strum_status spectrum_make(const strum_hanging *cable, const motion_choice *choice,

@@ -29,4 +29,7 @@ typedef struct spectrum {
 strum_status spectrum_make(const strum_hanging *cable, const motion_choice *choice,
                            arena *memory, spectrum *s);
 
+/* What the discretisation leaves, by the last coefficients; for spectrum_damped.c. */
+double spectrum_mesh_error(const motion *m, const double *v);
+
 #endif

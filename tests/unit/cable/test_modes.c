@@ -44,6 +44,11 @@ static void check_case(const mode_case *c)
             fail_msg("%s, mode %d: %.17g, %.17g: off by %.1e", c->name, i + 1, mode.frequency,
                      mode.decay, error);
     }
+    const double *decays;
+    const size_t roots = strum_cable_modes_overdamped(modes, &decays);
+    assert_true(roots >= (size_t)c->overdamped);
+    for (int i = 0; i < c->overdamped; i++)
+        check_relative(decays[i], c->root[i], 1e-11);
     strum_cable_certificate certificate;
     strum_cable_modes_certificate(modes, &certificate);
     assert_true(certificate.found >= c->count);
