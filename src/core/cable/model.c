@@ -113,16 +113,12 @@ static strum_status make_elements(const motion_choice *choice, motion *m)
 
 /* ---- the static state at the points ---- */
 
-typedef struct {
-    double tension, tangent_x, tangent_z;
-} static_state;
-
-static static_state state_at(const cable_piece *piece, double s)
+motion_state motion_state_at(const cable_piece *piece, double s)
 {
     const double tension = mesh_tension(piece, s);
     if (piece->lies)
-        return (static_state){tension, piece->bed_x, piece->bed_z};
-    return (static_state){tension, piece->h / tension,
+        return (motion_state){tension, piece->bed_x, piece->bed_z};
+    return (motion_state){tension, piece->h / tension,
                           (piece->v + piece->section->weight * s) / tension};
 }
 
@@ -132,7 +128,7 @@ static void fill_point(motion *m, const motion_element *e, int q)
     const strum_cable_section *section = piece->section;
     const double s = e->from - piece->start + e->half * (1 + e->rule->x[q]);
     const double weight = e->rule->w[q] * e->half;
-    const static_state at = state_at(piece, s);
+    const motion_state at = motion_state_at(piece, s);
     const int i = e->point + q;
     m->normal_x[i] = -at.tangent_z;
     m->normal_z[i] = at.tangent_x;
@@ -241,7 +237,8 @@ static int directions(const motion *m, const strum_cable_attachment *a, size_t s
         return a->direction == STRUM_CABLE_ACROSS || a->direction == STRUM_CABLE_ALL;
     }
     const cable_piece *left = m->cable->pieces + station - 1, *right = left + 1;
-    const static_state before = state_at(left, left->length), after = state_at(right, 0);
+    const motion_state before = motion_state_at(left, left->length),
+                       after = motion_state_at(right, 0);
     double x = before.tangent_x + after.tangent_x, z = before.tangent_z + after.tangent_z;
     const double size = hypot(x, z);
     x /= size;

@@ -13,8 +13,6 @@ void motion_gather(const motion_element *e, const double *v, double *rotations, 
         strains[k] = v[e->strain + k] * e->strain_scale;
 }
 
-#define POINTS_MAX 256 /* of one element: degrees are bounded by the mesh */
-
 /* Rotation and strain at the points of an element. */
 static void expand(const motion_element *e, const double *v, double *rotation, double *strain)
 {
@@ -41,27 +39,33 @@ static double accumulate(const motion_element *e, const double *slope, double st
     return e->half * motion_dot(n, e->rule->w, slope);
 }
 
+void motion_slopes(const motion *m, const motion_element *e, const double *v, double *x,
+                   double *z)
+{
+    double strain[POINTS_MAX];
+    const size_t n = (size_t)e->rule->points, p = (size_t)e->point;
+    const double *nx = m->normal_x + p, *nz = m->normal_z + p, *g = m->stretch + p;
+    expand(e, v, x, strain);
+    for (size_t q = 0; q < n; q++)
+        x[q] *= g[q];
+    if (m->components == 1)
+        return;
+    for (size_t q = 0; q < n; q++) {
+        z[q] = x[q] * nz[q] - strain[q] * nx[q];
+        x[q] = x[q] * nx[q] + strain[q] * nz[q];
+    }
+}
+
 void motion_displace(const motion *m, const double *v, double *u, double *nodes)
 {
-    double at[2] = {0, 0}, rotation[POINTS_MAX], strain[POINTS_MAX], slope[POINTS_MAX];
+    double at[2] = {0, 0}, x[POINTS_MAX], z[POINTS_MAX];
     nodes[0] = nodes[1] = 0;
     for (int i = 0; i < m->element_count; i++) {
         const motion_element *e = m->elements + i;
-        const size_t n = (size_t)e->rule->points, p = (size_t)e->point;
-        const double *nx = m->normal_x + p, *nz = m->normal_z + p, *g = m->stretch + p;
-        expand(e, v, rotation, strain);
-        for (size_t q = 0; q < n; q++)
-            rotation[q] *= g[q];
-        if (m->components == 1) {
-            at[0] += accumulate(e, rotation, at[0], u + p);
-        } else {
-            for (size_t q = 0; q < n; q++)
-                slope[q] = rotation[q] * nx[q] + strain[q] * nz[q];
-            at[0] += accumulate(e, slope, at[0], u + p);
-            for (size_t q = 0; q < n; q++)
-                slope[q] = rotation[q] * nz[q] - strain[q] * nx[q];
-            at[1] += accumulate(e, slope, at[1], u + m->points + p);
-        }
+        motion_slopes(m, e, v, x, z);
+        at[0] += accumulate(e, x, at[0], u + e->point);
+        if (m->components == 2)
+            at[1] += accumulate(e, z, at[1], u + m->points + e->point);
         nodes[2 * i + 2] = at[0];
         nodes[2 * i + 3] = at[1];
     }

@@ -104,6 +104,18 @@ typedef struct motion_choice {
 strum_status motion_make(const strum_hanging *cable, const motion_choice *choice, arena *memory,
                          motion *m);
 
+/* Degrees are bounded by the mesh. */
+#define POINTS_MAX 256
+
+/* Static state at `s` from the start of a piece. */
+typedef struct motion_state {
+    double tension, tangent_x, tangent_z;
+} motion_state;
+motion_state motion_state_at(const cable_piece *piece, double s);
+
+/* u' at the points of an element; z in plane alone. */
+void motion_slopes(const motion *m, const motion_element *e, const double *v, double *x,
+                   double *z);
 /* The displacement of the unknowns `v`: at points u[component * points + point], and at nodes
  * 0 .. element_count: nodes[2 node + component]. */
 void motion_displace(const motion *m, const double *v, double *u, double *nodes);
