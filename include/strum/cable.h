@@ -192,7 +192,9 @@ typedef enum strum_cable_argument {
 /* A cable in its static shape. */
 typedef struct strum_hanging strum_hanging;
 
-/* The static shape. `*cable` is the caller's, NULL after an error: STRUM_ERR_RANGE with the
+/* The static shape. Where several shapes have the figure that is given, the shortest is found, or
+ * with `slack_branch` the longest; the tension parallel to the chord is that of the first place
+ * where the cable is so. `*cable` is the caller's, NULL after an error: STRUM_ERR_RANGE with the
  * argument; STRUM_ERR_IMPOSSIBLE where no such cable hangs (the reason says why, and names the
  * least possible value where there is one). */
 strum_status strum_cable_hang(const strum_cable_params *params, const strum_options *options,
@@ -227,7 +229,7 @@ typedef struct strum_cable_contact {
     double from, to; /* unstretched */
     double x_from, x_to;
     double slack_to;  /* no tension up to there; `from` where there is tension everywhere */
-    double touchdown; /* stretched length from end 1, along the bed, of `to` */
+    double touchdown; /* x_to: on a level bed the stretched length from below end 1 */
 } strum_cable_contact;
 
 /* Contact `i` from end 1; STRUM_ERR_RANGE where there is none. */

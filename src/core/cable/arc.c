@@ -46,7 +46,7 @@ void arc_reach(const cable_arc *a, double h, double v, double *x, double *z)
     const ends e = ends_of(a, h, v);
     const double vertical = v + e.v_1;
     /* dx = h INT dS/|F| + h l/EA: nothing of the first where it hangs straight down */
-    *x = (h != 0 ? h * e.inverse : 0) + h * a->length * a->flexibility;
+    *x = (h != 0 && e.sum > 0 ? h * e.inverse : 0) + h * a->length * a->flexibility;
     /* dz = l (v0 + v1)/(T0 + T1) + l (v0 + v1)/(2 EA) */
     *z = e.sum > 0 ? a->length * vertical * (1 / e.sum + a->flexibility / 2) : 0;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/cable/check.h"
+#include "core/cable/ends.h"
 #include "core/cable/form.h"
 #include "core/cable/settle.h"
 
@@ -168,10 +169,11 @@ static strum_status hang(const strum_cable_params *p, strum_hanging *cable, work
         return work_result(w, status, error);
     cable->statics.solutions = 1;
     cable->statics.other_length = NAN;
-    status =
-        p->given == STRUM_CABLE_LENGTHS && !p->bed.present && !p->stiff
-            ? settle(&s, error)
-            : error_set(error, STRUM_ERR_METHOD, "only free cables of given lengths hang yet");
+    if (p->stiff)
+        status = error_set(error, STRUM_ERR_METHOD, "a cable without bending stiffness only");
+    else
+        status = p->given == STRUM_CABLE_LENGTHS ? settle(&s, error)
+                                                 : ends_find(&s, &cable->statics, error);
     if (status == STRUM_OK)
         status = second_state(cable, &changed, error);
     if (status == STRUM_OK && changed)

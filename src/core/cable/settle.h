@@ -5,6 +5,7 @@
 #define CORE_CABLE_SETTLE_H
 
 #include "core/cable/form.h"
+#include "core/cable/touch.h"
 #include "core/numerics/status.h"
 #include "core/numerics/work.h"
 
@@ -14,11 +15,14 @@ typedef struct {
     double span;
     cable_line line;
     cable_form form; /* memory of the cable */
-    bool warm;       /* the form is a neighbour's: begin from its force */
+    bed_contact *touching;
+    bool warm; /* the form is a neighbour's: begin from its force */
 } cable_settler;
 
 /* Room for all shapes; STRUM_ERR_MEMORY. */
 strum_status settle_begin(strum_hanging *cable, work *w, cable_settler *s);
+/* Cuts the sections, as they are, into s->line. */
+void settle_cut(cable_settler *s);
 /* Finds s->form for the lengths and s->span as they are. */
 strum_status settle(cable_settler *s, strum_error *error);
 /* Smallest height above the bed of what hangs between its ends; NAN without a bed. */

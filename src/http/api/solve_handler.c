@@ -237,7 +237,7 @@ static task *task_new(service *s, evaluation *a, const cache_key *key, flight *f
     *t = (task){.job = {.work = task_work,
                         .cost_us = cost_us,
                         .client = client,
-                        .bytes = memory_of_solve(cost_us)},
+                        .bytes = a ? evaluation_solve_bytes(a) : 0},
                 .service = s,
                 .asking = a,
                 .key = *key,
@@ -306,7 +306,7 @@ static enum MHD_Result solve(connection *p, evaluation *a)
     if (w && key_of_evaluation(a, &r->canonical, &key))
         turn = cache_acquire(s->cache, &key, w, &hit, &lead);
     /* Nor is anything solved on this thread while memory is short: it waits with the others. */
-    if (turn == ROLE_LEADER && (is_costly(s, a) || memory_used(&s->memory) > s->memory.limit))
+    if (turn == ROLE_LEADER && (is_costly(s, a) || !memory_for_small(&s->memory)))
         return queue_solve(p, a, &key, lead);
     if (turn == ROLE_LEADER)
         solve_flight(s, a, &key, lead, 0);
