@@ -31,5 +31,6 @@
 #include <strum/taut.h>
 #include <strum/absorber.h>
 #include <strum/cable.h>
+#include <strum/cable_modes.h>
 
 #endif
