@@ -113,13 +113,14 @@ static strum_status make_elements(const motion_choice *choice, motion *m)
 
 /* ---- the static state at the points ---- */
 
-motion_state motion_state_at(const cable_piece *piece, double s)
+motion_state motion_state_at(const strum_hanging *cable, size_t piece, double s)
 {
-    const double tension = mesh_tension(piece, s);
-    if (piece->lies)
-        return (motion_state){tension, piece->bed_x, piece->bed_z};
-    return (motion_state){tension, piece->h / tension,
-                          (piece->v + piece->section->weight * s) / tension};
+    const cable_piece *p = cable->pieces + piece;
+    const double tension = mesh_tension(p, s);
+    if (p->lies)
+        return (motion_state){tension, 0, p->bed_x, p->bed_z, 0};
+    return (motion_state){tension, 0, p->h / tension, (p->v + p->section->weight * s) / tension,
+                          0};
 }
 
 static void fill_point(motion *m, const motion_element *e, int q)
@@ -128,14 +129,18 @@ static void fill_point(motion *m, const motion_element *e, int q)
     const strum_cable_section *section = piece->section;
     const double s = e->from - piece->start + e->half * (1 + e->rule->x[q]);
     const double weight = e->rule->w[q] * e->half;
-    const motion_state at = motion_state_at(piece, s);
+    const motion_state at = motion_state_at(m->cable, e->piece, s);
     const int i = e->point + q;
     m->normal_x[i] = -at.tangent_z;
     m->normal_z[i] = at.tangent_x;
     m->stretch[i] = 1 + at.tension / section->axial_stiffness;
     m->tension[i] = at.tension * m->stretch[i];
+    if (m->components == 1)
+        m->tension[i] -= e->bending * at.turn * at.turn;
     m->mass_normal[i] = weight * (section->mass + section->added_mass);
     m->mass_tangential[i] = weight * (section->mass + section->added_mass_tangential);
+    if (m->shear != NULL)
+        m->shear[i] = at.shear;
     if (m->drag_normal != NULL) {
         m->drag_normal[i] = weight * section->drag_normal;
         m->drag_tangential[i] = weight * section->drag_tangential;
@@ -236,9 +241,9 @@ static int directions(const motion *m, const strum_cable_attachment *a, size_t s
         d[0][1] = 0;
         return a->direction == STRUM_CABLE_ACROSS || a->direction == STRUM_CABLE_ALL;
     }
-    const cable_piece *left = m->cable->pieces + station - 1, *right = left + 1;
-    const motion_state before = motion_state_at(left, left->length),
-                       after = motion_state_at(right, 0);
+    const double end = m->cable->pieces[station - 1].length;
+    const motion_state before = motion_state_at(m->cable, station - 1, end);
+    const motion_state after = motion_state_at(m->cable, station, 0);
     double x = before.tangent_x + after.tangent_x, z = before.tangent_z + after.tangent_z;
     const double size = hypot(x, z);
     x /= size;
