@@ -235,7 +235,7 @@ strum_status strum_cable_modes_shape(const strum_cable_modes *modes, size_t inde
                                      const double *positions, size_t n,
                                      strum_cable_motion_point *points)
 {
-    const strum_hanging *cable = modes->cable;
+    const strum_hanging *cable = modes->line;
     const double length = cable->stations[cable->piece_count].position;
     if (index >= modes->count || (positions == NULL && n < 2))
         return STRUM_ERR_RANGE;

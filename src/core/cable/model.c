@@ -6,6 +6,7 @@
 #include "core/cable/mesh.h"
 #include "core/cable/motion.h"
 #include "core/cable/rule.h"
+#include "core/cable/spans.h"
 
 /* ---- elements ---- */
 
@@ -209,6 +210,15 @@ static void hold_at_bed(motion *m, double slope)
     }
 }
 
+/* The feet of hangers do not move up or down. */
+static void hold_at_hangers(motion *m)
+{
+    spans_hanger hanger;
+    for (size_t i = m->first_piece + 1; i < m->last_piece && m->components == 2; i++)
+        if (spans_hanger_at(m->cable, i, &hanger))
+            hold(m, node_of(m, i), 0, 1);
+}
+
 /* In directions along and across the chord: an inextensible cable that is almost straight hardly
  * moves along it. */
 static void hold_end(motion *m)
@@ -333,19 +343,27 @@ static void add_attachment(motion *m, const strum_cable_attachment *a, size_t st
 static strum_status make_attachments(const motion_choice *choice, motion *m)
 {
     const strum_hanging *cable = m->cable;
-    const size_t attached = cable->params.attachment_count;
+    size_t attached = 0;
+    for (size_t i = m->first_piece + 1; i < m->last_piece; i++)
+        attached += cable->stations[i].count;
     const size_t pieces = m->last_piece - m->first_piece;
-    m->rows = arena_alloc(m->memory, 2 * attached + pieces + 3, sizeof *m->rows);
-    m->bodies = arena_alloc(m->memory, attached + 1, sizeof *m->bodies);
+    m->rows = arena_alloc(m->memory, 2 * (attached + pieces) + 3, sizeof *m->rows);
+    m->bodies = arena_alloc(m->memory, attached + pieces, sizeof *m->bodies);
     m->links = arena_alloc(m->memory, 2 * attached + 1, sizeof *m->links);
     if (m->rows == NULL || m->bodies == NULL || m->links == NULL)
         return STRUM_ERR_MEMORY;
     if (m->components == 2 && choice->sliding)
         hold_at_bed(m, cable->params.bed.slope);
+    hold_at_hangers(m);
     hold_end(m);
     for (size_t i = m->first_piece + 1; i < m->last_piece; i++) {
         const cable_station *station = cable->stations + i;
         const int node = node_of(m, i);
+        spans_hanger hanger;
+        if (spans_hanger_at(cable, i, &hanger)) {
+            m->rows[m->row_count++] = (motion_row){node, 1, 0, 1 / hanger.stiffness, false};
+            m->bodies[m->body_count++] = (motion_body){node, {hanger.mass, 0, 0}, {-1, -1}, 0};
+        }
         for (size_t k = 0; k < station->count; k++)
             add_attachment(m, cable->attachments + station->first + k, i, node);
     }

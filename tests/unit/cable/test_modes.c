@@ -276,6 +276,68 @@ static void on_the_bed(void **state)
     }
 }
 
+/* ---- spans in a row ---- */
+
+/* Two spans are one cable of twice the span, held up at its middle by the force that the hanger
+ * gives, on springs: a rigid one vertically, (P + W/2)/l along and across, with a third of the
+ * hanger's mass. */
+static void check_two_spans(strum_plane plane, double stiffness)
+{
+    enum { COUNT = 8 };
+    const double weight = 17.658, length = 300.8, hanger = 2.2, mass = 60;
+    const strum_cable_section section = {.length = length,
+                                         .mass = 1.8,
+                                         .weight = weight,
+                                         .axial_stiffness = 3.6e7,
+                                         .bending_stiffness = stiffness,
+                                         .bed_friction = NAN};
+    strum_cable_section twice = section;
+    const double pull = weight * length, spring = (pull + mass * 9.80665 / 2) / hanger;
+    const strum_cable_attachment held[] = {
+        {STRUM_CABLE_FORCE, length, STRUM_CABLE_NORMAL, .force_z = pull},
+        {STRUM_CABLE_SPRING, length, STRUM_CABLE_VERTICAL, .stiffness = 1e20},
+        {STRUM_CABLE_SPRING, length, STRUM_CABLE_HORIZONTAL, .stiffness = spring},
+        {STRUM_CABLE_SPRING, length, STRUM_CABLE_ACROSS, .stiffness = spring},
+        {STRUM_CABLE_POINT_MASS, length, STRUM_CABLE_NORMAL, .mass = mass / 3},
+    };
+    strum_cable_params row = STRUM_CABLE_PARAMS_INIT, one = STRUM_CABLE_PARAMS_INIT;
+    strum_hanging *cable;
+    row.sections = &section;
+    row.section_count = one.section_count = 1;
+    row.span = 300;
+    row.spans = 2;
+    row.hanger_length = hanger;
+    row.hanger_mass = mass;
+    twice.length = 2 * length;
+    one.sections = &twice;
+    one.span = 600;
+    one.attachments = held;
+    one.attachment_count = sizeof held / sizeof *held;
+    assert_int_equal(strum_cable_hang(&row, NULL, &cable, NULL), STRUM_OK);
+    strum_cable_modes *got = solved(cable, plane, COUNT);
+    strum_cable_free(cable);
+    assert_int_equal(strum_cable_hang(&one, NULL, &cable, NULL), STRUM_OK);
+    strum_cable_modes *want = solved(cable, plane, COUNT);
+    strum_cable_free(cable);
+    for (size_t i = 0; i < COUNT; i++) {
+        strum_cable_mode a, b;
+        assert_int_equal(strum_cable_modes_get(got, i, &a), STRUM_OK);
+        assert_int_equal(strum_cable_modes_get(want, i, &b), STRUM_OK);
+        check_relative(a.frequency, b.frequency, 1e-11);
+    }
+    strum_cable_modes_free(got);
+    strum_cable_modes_free(want);
+}
+
+static void spans_in_a_row(void **state)
+{
+    (void)state;
+    check_two_spans(STRUM_IN_PLANE, 0);
+    check_two_spans(STRUM_OUT_OF_PLANE, 0);
+    check_two_spans(STRUM_IN_PLANE, 900);
+    check_two_spans(STRUM_OUT_OF_PLANE, 900);
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -304,7 +366,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reference),       cmocka_unit_test(many_modes),
         cmocka_unit_test(shapes_and_ends), cmocka_unit_test(on_the_bed),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(spans_in_a_row),  cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests_name("cable_modes", tests, NULL, NULL);
 }
