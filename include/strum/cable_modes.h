@@ -8,6 +8,11 @@
  * static shape. What lies on the bed is held, and the hanging parts are then pinned at its edges
  * and move independently; or it slides without friction.
  *
+ * Spans in a row: each has the static shape of one; between them the cable hangs from rigid rods,
+ * whose feet move along and across the row against (P + W/2)/l with a third of their mass (P the
+ * cable's pull, W the weight under standard gravity, l the length). It is continuous there; places
+ * count on from span to span.
+ *
  * Units: SI; frequencies in rad/s.
  *
  *     strum_cable_modes_params params = STRUM_CABLE_MODES_PARAMS_INIT;
@@ -56,6 +61,7 @@ typedef struct strum_cable_modes strum_cable_modes;
  * reduced model. Counted as strum_cable_modes_certificate says: STRUM_ERR_ACCURACY where the count
  * or the error estimate (1e-12 undamped, 1e-10 damped) is not met. STRUM_ERR_RANGE with
  * STRUM_CABLE_ARG_COUNT; STRUM_ERR_IMPOSSIBLE: the static shape is slack at a point, or unstable;
+ * STRUM_ERR_METHOD: several spans with stiff statics;
  * STRUM_ERR_MEMORY, and what `options` ends. *modes is NULL after an error. */
 strum_status strum_cable_modes_solve(const strum_hanging *cable,
                                      const strum_cable_modes_params *params,

@@ -35,10 +35,16 @@ static double tension_of(const motion *m, const spectrum_mode *mode, const motio
     const int n = e->rule->points;
     double sum = 0;
     for (int q = 0; q < n; q++) {
-        double _Complex turned = 0;
+        const double weight = e->rule->w[q] * e->half;
+        double _Complex turned = 0, strained = 0;
         for (int k = 0; k < e->rotations; k++)
             turned += unknown(mode, motion_column(e, k)) * e->rule->rotation[k * n + q];
-        sum += e->rule->w[q] * e->half * m->tension[e->point + q] * square(turned);
+        sum += weight * m->tension[e->point + q] * square(turned);
+        for (int k = 0; m->shear != NULL && k < e->strains; k++)
+            strained += unknown(mode, e->strain + k) * e->rule->strain[k * n + q];
+        if (m->shear != NULL)
+            sum -= 2 * weight * m->shear[e->point + q] * e->strain_scale *
+                   (creal(turned) * creal(strained) + cimag(turned) * cimag(strained));
     }
     return sum;
 }
@@ -156,8 +162,9 @@ static double _Complex tension_at(const motion *m, const field_point *p, double 
     if (p->element == NULL || m->components == 1)
         return 0;
     const cable_piece *piece = m->cable->pieces + p->element->piece;
-    const motion_state at = motion_state_at(piece, position - piece->start);
-    return p->force[0] * at.tangent_x + p->force[1] * at.tangent_z;
+    const motion_state at =
+        motion_state_at(m->cable, p->element->piece, position - piece->start);
+    return p->force[0] * at.tangent_x + p->force[1] * at.tangent_z + at.shear * p->rotation;
 }
 
 static double _Complex moment_at(const motion *m, const field_point *p)
@@ -228,7 +235,7 @@ strum_status strum_cable_modes_shape(const strum_cable_modes *modes, size_t inde
                                      const double *positions, size_t n,
                                      strum_cable_motion_point *points)
 {
-    const strum_hanging *cable = modes->cable;
+    const strum_hanging *cable = modes->line;
     const double length = cable->stations[cable->piece_count].position;
     if (index >= modes->count || (positions == NULL && n < 2))
         return STRUM_ERR_RANGE;

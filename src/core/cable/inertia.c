@@ -9,6 +9,7 @@
 #define FRONT_MAX 40 /* unknowns at a node: displacements, rotation, forces, what is held */
 #define HELD_MAX  30
 #define NEAR_ZERO 1e-11
+#define RIGID     1e-9 /* of the compliance of the cable across */
 
 typedef struct {
     const stiffness *k;
@@ -241,6 +242,22 @@ static void add_stiffness(const counter *c, int index, const layout *l, int size
         }
 }
 
+/* What couples strains and rotations: -E. */
+static void add_coupling(const counter *c, int index, const layout *l, int size)
+{
+    const motion_element *e = c->m->elements + index;
+    const double *coupling = c->k->coupling[index];
+    for (int f = 0; coupling != NULL && f < l->count; f++)
+        for (int g = 0; g < l->count; g++) {
+            const int a = l->functions[f], b = l->functions[g];
+            if (a >= 0 && b < 0) {
+                const double value = coupling[(-1 - b) * e->rotations + a];
+                c->matrix[(size_t)place(l, f) * size + place(l, g)] -= value;
+                c->matrix[(size_t)place(l, g) * size + place(l, f)] -= value;
+            }
+        }
+}
+
 /* Inertia of bodies that turn with a rotation of this element alone. */
 static void add_turning(const counter *c, const motion_element *e, const layout *l, int size)
 {
@@ -276,8 +293,14 @@ static strum_status element_matrix(const counter *c, int index, const layout *l,
             c->matrix[(size_t)row * size + column] = -c->squared * gram[f * columns + g];
         }
     add_stiffness(c, index, l, size);
+    add_coupling(c, index, l, size);
     add_turning(c, e, l, size);
+    /* Along an inextensible straight cable, and normal to the bed under what lies, nothing gives
+     * way, and the force has no pivot: it gets a little compliance. */
+    const bool rigid = parts == 2 && (e->rotations == 0 || e->strains == 0);
+    const double compliance = rigid ? RIGID * e->half / m->cable->statics.tension_max : 0;
     for (int part = 0; part < parts; part++) {
+        c->matrix[(size_t)(columns + part) * size + columns + part] = -compliance;
         for (int f = 0; f < l->count; f++) {
             const double step =
                 motion_dot((size_t)n, e->rule->w, c->slope[part] + (size_t)f * n);

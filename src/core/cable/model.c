@@ -6,6 +6,7 @@
 #include "core/cable/mesh.h"
 #include "core/cable/motion.h"
 #include "core/cable/rule.h"
+#include "core/cable/spans.h"
 
 /* ---- elements ---- */
 
@@ -113,13 +114,14 @@ static strum_status make_elements(const motion_choice *choice, motion *m)
 
 /* ---- the static state at the points ---- */
 
-motion_state motion_state_at(const cable_piece *piece, double s)
+motion_state motion_state_at(const strum_hanging *cable, size_t piece, double s)
 {
-    const double tension = mesh_tension(piece, s);
-    if (piece->lies)
-        return (motion_state){tension, piece->bed_x, piece->bed_z};
-    return (motion_state){tension, piece->h / tension,
-                          (piece->v + piece->section->weight * s) / tension};
+    const cable_piece *p = cable->pieces + piece;
+    const double tension = mesh_tension(p, s);
+    if (p->lies)
+        return (motion_state){tension, 0, p->bed_x, p->bed_z, 0};
+    return (motion_state){tension, 0, p->h / tension, (p->v + p->section->weight * s) / tension,
+                          0};
 }
 
 static void fill_point(motion *m, const motion_element *e, int q)
@@ -128,14 +130,18 @@ static void fill_point(motion *m, const motion_element *e, int q)
     const strum_cable_section *section = piece->section;
     const double s = e->from - piece->start + e->half * (1 + e->rule->x[q]);
     const double weight = e->rule->w[q] * e->half;
-    const motion_state at = motion_state_at(piece, s);
+    const motion_state at = motion_state_at(m->cable, e->piece, s);
     const int i = e->point + q;
     m->normal_x[i] = -at.tangent_z;
     m->normal_z[i] = at.tangent_x;
     m->stretch[i] = 1 + at.tension / section->axial_stiffness;
     m->tension[i] = at.tension * m->stretch[i];
+    if (m->components == 1)
+        m->tension[i] -= e->bending * at.turn * at.turn;
     m->mass_normal[i] = weight * (section->mass + section->added_mass);
     m->mass_tangential[i] = weight * (section->mass + section->added_mass_tangential);
+    if (m->shear != NULL)
+        m->shear[i] = at.shear;
     if (m->drag_normal != NULL) {
         m->drag_normal[i] = weight * section->drag_normal;
         m->drag_tangential[i] = weight * section->drag_tangential;
@@ -204,6 +210,15 @@ static void hold_at_bed(motion *m, double slope)
     }
 }
 
+/* The feet of hangers do not move up or down. */
+static void hold_at_hangers(motion *m)
+{
+    spans_hanger hanger;
+    for (size_t i = m->first_piece + 1; i < m->last_piece && m->components == 2; i++)
+        if (spans_hanger_at(m->cable, i, &hanger))
+            hold(m, node_of(m, i), 0, 1);
+}
+
 /* In directions along and across the chord: an inextensible cable that is almost straight hardly
  * moves along it. */
 static void hold_end(motion *m)
@@ -236,9 +251,9 @@ static int directions(const motion *m, const strum_cable_attachment *a, size_t s
         d[0][1] = 0;
         return a->direction == STRUM_CABLE_ACROSS || a->direction == STRUM_CABLE_ALL;
     }
-    const cable_piece *left = m->cable->pieces + station - 1, *right = left + 1;
-    const motion_state before = motion_state_at(left, left->length),
-                       after = motion_state_at(right, 0);
+    const double end = m->cable->pieces[station - 1].length;
+    const motion_state before = motion_state_at(m->cable, station - 1, end);
+    const motion_state after = motion_state_at(m->cable, station, 0);
     double x = before.tangent_x + after.tangent_x, z = before.tangent_z + after.tangent_z;
     const double size = hypot(x, z);
     x /= size;
@@ -328,19 +343,27 @@ static void add_attachment(motion *m, const strum_cable_attachment *a, size_t st
 static strum_status make_attachments(const motion_choice *choice, motion *m)
 {
     const strum_hanging *cable = m->cable;
-    const size_t attached = cable->params.attachment_count;
+    size_t attached = 0;
+    for (size_t i = m->first_piece + 1; i < m->last_piece; i++)
+        attached += cable->stations[i].count;
     const size_t pieces = m->last_piece - m->first_piece;
-    m->rows = arena_alloc(m->memory, 2 * attached + pieces + 3, sizeof *m->rows);
-    m->bodies = arena_alloc(m->memory, attached + 1, sizeof *m->bodies);
+    m->rows = arena_alloc(m->memory, 2 * (attached + pieces) + 3, sizeof *m->rows);
+    m->bodies = arena_alloc(m->memory, attached + pieces, sizeof *m->bodies);
     m->links = arena_alloc(m->memory, 2 * attached + 1, sizeof *m->links);
     if (m->rows == NULL || m->bodies == NULL || m->links == NULL)
         return STRUM_ERR_MEMORY;
     if (m->components == 2 && choice->sliding)
         hold_at_bed(m, cable->params.bed.slope);
+    hold_at_hangers(m);
     hold_end(m);
     for (size_t i = m->first_piece + 1; i < m->last_piece; i++) {
         const cable_station *station = cable->stations + i;
         const int node = node_of(m, i);
+        spans_hanger hanger;
+        if (spans_hanger_at(cable, i, &hanger)) {
+            m->rows[m->row_count++] = (motion_row){node, 1, 0, 1 / hanger.stiffness, false};
+            m->bodies[m->body_count++] = (motion_body){node, {hanger.mass, 0, 0}, {-1, -1}, 0};
+        }
         for (size_t k = 0; k < station->count; k++)
             add_attachment(m, cable->attachments + station->first + k, i, node);
     }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/cable/spans.h"
 #include "core/numerics/status.h"
 
 /* ---- stretches that move by themselves ---- */
@@ -115,12 +116,23 @@ strum_status strum_cable_modes_solve(const strum_hanging *cable,
     if (!(cable->statics.tension_min > 0) && !cable->statics.slack)
         return error_set(error, STRUM_ERR_IMPOSSIBLE,
                          "the cable has no tension at a point: it has no small linear motion");
+    if (cable->params.spans > 1 && cable->rod != NULL)
+        return error_set(error, STRUM_ERR_METHOD,
+                         "modes of several spans need the static shape without bending "
+                         "stiffness (statics flexible)");
     strum_cable_modes *made = calloc(1, sizeof *made);
     if (made == NULL)
         return error_set(error, STRUM_ERR_MEMORY, "%s", strum_status_text(STRUM_ERR_MEMORY));
     made->cable = cable_share(cable);
     made->memory.work = &w;
-    strum_status status = solve_stretches(cable, params, made);
+    made->line = cable;
+    strum_status status = STRUM_OK;
+    if (cable->params.spans > 1) {
+        status = spans_repeat(cable, &made->memory, &made->row);
+        made->line = &made->row;
+    }
+    if (status == STRUM_OK)
+        status = solve_stretches(made->line, params, made);
     if (status == STRUM_OK)
         status = merge(params->count, made);
     made->memory.work = NULL;

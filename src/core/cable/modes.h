@@ -15,6 +15,8 @@ typedef struct {
 
 struct strum_cable_modes {
     const strum_hanging *cable; /* shared */
+    strum_hanging row;          /* of several spans; else without pieces */
+    const strum_hanging *line;  /* whichever of the two moves */
     arena memory;
     spectrum *stretches;
     size_t stretch_count;

@@ -78,7 +78,7 @@ typedef struct motion {
     double *normal_x, *normal_z; /* t = (normal_z, -normal_x) */
     double *stretch;             /* 1 + e0 */
     double *tension;             /* weight of th^2 in the energy, per unstretched metre */
-    double *shear;               /* Q0; NULL with flexible statics */
+    double *shear;               /* Q0; NULL where it is 0 or has no part */
     double *mass_normal, *mass_tangential; /* times the weight of the point */
     double *drag_normal, *drag_tangential; /* likewise; NULL: none */
     double loss_axial_max, loss_bending_max;
@@ -107,11 +107,11 @@ strum_status motion_make(const strum_hanging *cable, const motion_choice *choice
 /* Degrees are bounded by the mesh. */
 #define POINTS_MAX 256
 
-/* Static state at `s` from the start of a piece. */
+/* Static state at `s` from the start of a piece: N0, Q0, t and dth0/dS. */
 typedef struct motion_state {
-    double tension, tangent_x, tangent_z;
+    double tension, shear, tangent_x, tangent_z, turn;
 } motion_state;
-motion_state motion_state_at(const cable_piece *piece, double s);
+motion_state motion_state_at(const strum_hanging *cable, size_t piece, double s);
 
 /* u' at the points of an element; z in plane alone. */
 void motion_slopes(const motion *m, const motion_element *e, const double *v, double *x,

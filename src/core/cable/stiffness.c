@@ -33,6 +33,67 @@ void stiffness_element(const motion *m, const motion_element *e, double *weighte
     k[count] -= e->bending / e->half / 2;
 }
 
+void stiffness_coupling(const motion *m, const motion_element *e, double *coupling)
+{
+    const int n = e->rule->points;
+    double weighted[POINTS_MAX];
+    for (int k = 0; k < e->strains; k++) {
+        for (int q = 0; q < n; q++)
+            weighted[q] = e->rule->w[q] * e->half * e->strain_scale * m->shear[e->point + q] *
+                          e->rule->strain[k * n + q];
+        for (int a = 0; a < e->rotations; a++)
+            coupling[k * e->rotations + a] =
+                motion_dot((size_t)n, weighted, e->rule->rotation + (size_t)a * (size_t)n);
+    }
+}
+
+/* Keeps E and takes E'E from the element's stiffness. */
+static strum_status couple(const motion *m, int index, double *local, arena *memory,
+                           stiffness *k)
+{
+    const motion_element *e = m->elements + index;
+    if (m->shear == NULL || e->strains == 0 || !(e->bending > 0))
+        return STRUM_OK;
+    double *coupling = arena_room(memory, (size_t)(e->strains * e->rotations));
+    if (coupling == NULL)
+        return STRUM_ERR_MEMORY;
+    stiffness_coupling(m, e, coupling);
+    k->coupling[index] = coupling;
+    for (int s = 0; s < e->strains; s++)
+        for (int a = 0; a < e->rotations; a++)
+            motion_add((size_t)e->rotations, -coupling[s * e->rotations + a],
+                       coupling + s * e->rotations, local + a * e->rotations);
+    return STRUM_OK;
+}
+
+/* y_th + E'y_e, in place. */
+static void to_rotations(const stiffness *k, double *y)
+{
+    for (int i = 0; i < k->motion->element_count; i++) {
+        const motion_element *e = k->motion->elements + i;
+        const double *coupling = k->coupling[i];
+        for (int a = 0; coupling != NULL && a < e->rotations; a++) {
+            const int column = motion_column(e, a);
+            for (int s = 0; column >= 0 && s < e->strains; s++)
+                y[column] += coupling[s * e->rotations + a] * y[e->strain + s];
+        }
+    }
+}
+
+/* y_e + E x_th, in place. */
+static void to_strains(const stiffness *k, double *x)
+{
+    for (int i = 0; i < k->motion->element_count; i++) {
+        const motion_element *e = k->motion->elements + i;
+        const double *coupling = k->coupling[i];
+        for (int a = 0; coupling != NULL && a < e->rotations; a++) {
+            const int column = motion_column(e, a);
+            for (int s = 0; column >= 0 && s < e->strains; s++)
+                x[e->strain + s] += coupling[s * e->rotations + a] * x[column];
+        }
+    }
+}
+
 static void reach(const motion *m, stiffness *k)
 {
     for (int i = 0; i < m->element_count; i++) {
@@ -79,6 +140,8 @@ static strum_status assemble(const motion *m, arena *memory, stiffness *k)
         if (e->rotations == 0)
             continue;
         stiffness_element(m, e, room, room + most * most);
+        if (couple(m, i, room + most * most, memory, k) != STRUM_OK)
+            return STRUM_ERR_MEMORY;
         add_element(e, room + most * most, k);
     }
     const motion_element *first = m->elements, *last = first + m->element_count - 1;
@@ -109,6 +172,7 @@ static strum_status cholesky(stiffness *k, work *w)
 
 static void band_solve(const stiffness *k, double *x)
 {
+    to_rotations(k, x);
     for (int j = 0; j < k->n; j++) {
         const double *column = k->column[j];
         x[j] /= column[j];
@@ -119,6 +183,7 @@ static void band_solve(const stiffness *k, double *x)
         x[j] -= motion_dot((size_t)(k->last[j] - j), column + j + 1, x + j + 1);
         x[j] /= column[j];
     }
+    to_strains(k, x);
 }
 
 /* ---- what holds ---- */
@@ -200,7 +265,8 @@ strum_status stiffness_make(const motion *m, arena *memory, stiffness *k)
         .motion = m, .n = m->rotation_columns, .rows = m->row_count, .held = m->held_count};
     k->last = arena_alloc(memory, (size_t)k->n + 1, sizeof *k->last);
     k->column = arena_alloc(memory, (size_t)k->n + 1, sizeof *k->column);
-    if (k->last == NULL || k->column == NULL)
+    k->coupling = arena_alloc(memory, (size_t)m->element_count, sizeof *k->coupling);
+    if (k->last == NULL || k->column == NULL || k->coupling == NULL)
         return STRUM_ERR_MEMORY;
     reach(m, k);
     strum_status status = assemble(m, memory, k);
