@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "endpoints/cable/answer.h"
+#include "endpoints/cable/comparison.h"
 #include "endpoints/cable/motion.h"
 #include "endpoints/cable/prepare.h"
 
@@ -14,6 +15,7 @@ typedef struct request {
     hung_input in;
     int plane, contact;
     int64_t modes, shape_points;
+    bool compare;
 } request;
 
 static const field fields[] = {
@@ -28,6 +30,8 @@ static const field fields[] = {
      .flags = FIELD_DEFAULT,
      .help = "points of the static shape and of each mode's, equally spaced in unstretched "
              "length, ends included; 0: none, else at least 2"},
+    {FIELD_AT(FIELD_FLAG, request, compare), .flags = FIELD_DEFAULT,
+     .help = "put the simpler theories beside the answer, with differences"},
     {.kind = FIELD_END}};
 static const field_groups groups[] = {HUNG_GROUPS, {0}};
 
@@ -116,7 +120,7 @@ static void warn_few(const request *r, const motion found[2], answer *a)
 }
 
 static strum_status write_result(const request *r, const strum_hanging *cable,
-                                 const motion found[2], answer *a)
+                                 const motion found[2], answer *a, strum_error *error)
 {
     hung_warn(&r->in, cable, a);
     motion_warn(&r->in, found, a);
@@ -125,6 +129,11 @@ static strum_status write_result(const request *r, const strum_hanging *cable,
     strum_status status = hung_write(&r->in, cable, (size_t)r->shape_points, a->result);
     if (status == STRUM_OK)
         status = motion_write(found, (size_t)r->shape_points, a->result);
+    if (status == STRUM_OK && r->compare) {
+        const strum_options options = answer_options(a);
+        status = comparison_write(&r->in, cable, found, (size_t)r->modes, &options, a->result,
+                                  error);
+    }
     json_close_object(a->result);
     return status;
 }
@@ -142,7 +151,7 @@ static bool respond(const void *data, answer *a)
             status = solve_plane(r, cable, (strum_plane)plane, &options, &found[plane], &error);
     if (status == STRUM_OK) {
         a->theory = theory(r);
-        status = write_result(r, cable, found, a);
+        status = write_result(r, cable, found, a, &error);
     }
     motion_free(found);
     strum_cable_free(cable);

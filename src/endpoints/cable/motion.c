@@ -195,7 +195,7 @@ double motion_bytes(size_t modes, size_t shape_points)
 
 /* ---- warnings ---- */
 
-static bool acts(strum_cable_direction direction, strum_plane plane)
+bool motion_acts(strum_cable_direction direction, strum_plane plane)
 {
     if (direction == STRUM_CABLE_ALL)
         return true;
@@ -210,7 +210,7 @@ static void warn_links(const hung_input *in, strum_plane plane, answer *a)
         const strum_cable_attachment *one = &in->params.attachments[i];
         const bool link = one->kind == STRUM_CABLE_SPRING || one->kind == STRUM_CABLE_DAMPER ||
                           one->kind == STRUM_CABLE_INERTER || one->kind == STRUM_CABLE_ABSORBER;
-        if (!link || acts(one->direction, plane) || in->origin[i] == last)
+        if (!link || motion_acts(one->direction, plane) || in->origin[i] == last)
             continue;
         last = in->origin[i];
         answer_warn(a, "attachments/%zu cannot act %s: its direction lies %s", last,

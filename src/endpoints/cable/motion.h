@@ -17,6 +17,8 @@ typedef struct motion {
 void motion_free(motion planes[2]);
 /* The members in_plane, out_of_plane, overdamped and count of an open object. */
 strum_status motion_write(const motion planes[2], size_t shape_points, json_writer *json);
+/* Does a link of this direction act in the plane? */
+bool motion_acts(strum_cable_direction direction, strum_plane plane);
 /* Of links that do not act, and of held and sliding modes that differ. */
 void motion_warn(const hung_input *in, const motion planes[2], answer *a);
 /* The least part that a mode's shape takes. */
