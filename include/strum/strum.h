@@ -32,5 +32,6 @@
 #include <strum/absorber.h>
 #include <strum/cable.h>
 #include <strum/cable_modes.h>
+#include <strum/identify.h>
 
 #endif

@@ -24,6 +24,7 @@ BELOW = {
     "core/taut": ["core/numerics"],
     "core/cable": ["core/numerics"],
     "core/absorber": ["core/numerics", "core/taut"],
+    "core/identify": ["core/numerics", "core/taut"],
     "json": [],
     "schema": ["json"],
     "endpoints": ["schema", "json"],

@@ -32,6 +32,11 @@ static taut_value value_at(taut_search *search, dual s, dual factor)
     return value;
 }
 
+taut_value taut_search_at(taut_search *search, cplx s, double factor)
+{
+    return value_at(search, (dual){s, 1.0}, dual_of(factor));
+}
+
 taut_value taut_search_value(taut_search *search, cplx s)
 {
     return value_at(search, (dual){s, 1.0}, dual_of(1.0));
@@ -201,4 +206,37 @@ void taut_branch_follow(taut_search *search, taut_branch *branch, double gap, do
             !step(search, branch, speeds, reaches, factor))
             branch->state = TAUT_LOST;
     }
+}
+
+strum_status strum_taut_follow(const strum_taut *chain, long mode, const double *factors,
+                               size_t count, const strum_options *options,
+                               strum_taut_root *roots, strum_error *error)
+{
+    const long numbers[3] = {mode - 1, mode, mode + 1};
+    double w[3] = {0.0, 0.0, INFINITY};
+    const int from = mode <= 1;
+    taut_search search = {.chain = chain, .work = work_begin(options)};
+    strum_status status = taut_frequencies(chain, numbers + from, 2 - (size_t)from,
+                                           &search.work, w + from, error);
+    if (status != STRUM_OK)
+        return status;
+    if (taut_frequencies(chain, numbers + 2, 1, &search.work, w + 2, NULL) != STRUM_OK)
+        w[2] = INFINITY; /* the last one that the chain has */
+    search.spacing = taut_spacing(chain);
+    const double gap = fmin(search.spacing, fmin(w[1] - w[0], w[2] - w[1]));
+    taut_branch branch;
+    taut_branch_start(&branch, mode, w[1]);
+    for (size_t i = 0; i < count; i++) {
+        if (!(factors[i] >= branch.factor))
+            return error_set(error, STRUM_ERR_RANGE, "factors of the damping must ascend");
+        taut_branch_follow(&search, &branch, fmax(gap, 0.2 * search.spacing), factors[i], 1.0);
+        if (search.work.status != STRUM_OK)
+            return work_error(&search.work, error);
+        if (branch.state == TAUT_LOST)
+            return error_set(error, STRUM_ERR_ACCURACY,
+                             "mode %ld cannot be followed beyond %.6g times the damping", mode,
+                             branch.factor);
+        roots[i] = (strum_taut_root){mode, cimag(branch.s[0]), -creal(branch.s[0]), INFINITY};
+    }
+    return STRUM_OK;
 }

@@ -80,6 +80,8 @@ typedef struct taut_search {
 
 /* F and dF/ds at full damping. */
 taut_value taut_search_value(taut_search *search, cplx s);
+/* F and dF/ds where all damping is multiplied by a factor. */
+taut_value taut_search_at(taut_search *search, cplx s, double factor);
 /* Newton's method at full damping from `s`; true when it converged. A real start stays real. */
 bool taut_newton(taut_search *search, cplx *s);
 
@@ -121,6 +123,26 @@ void taut_find_missing(taut_search *search, const taut_rectangle *box, long expe
 bool taut_inside(const taut_rectangle *box, cplx s);
 /* Does the list hold s (to the digits that a root has)? */
 bool taut_known(const cplx *roots, size_t count, cplx s, double tolerance);
+
+/* ---- clusters ---- */
+
+#define TAUT_CLUSTER_MAX 8
+
+/* A circle, the number of roots in it and their power sums about its centre, in radii. */
+typedef struct taut_ring {
+    cplx centre;
+    double radius;
+    int count;
+    cplx power[TAUT_CLUSTER_MAX + 1];
+} taut_ring;
+
+/* False where a root lies too near the circle, or more than TAUT_CLUSTER_MAX within it. */
+bool taut_ring_make(taut_search *search, cplx centre, double radius, double factor,
+                    taut_ring *ring);
+/* Its roots (`count` of them), by frequency, then decay. */
+void taut_ring_roots(taut_search *search, const taut_ring *ring, double factor, cplx *roots);
+/* The smallest distance of two of them. */
+double taut_ring_apart(const taut_ring *ring, const cplx *roots);
 
 /* Muller's method from guess i w_k, deflated by what it found; see taut_muller.c. */
 bool taut_muller(taut_search *search, cplx guess, const cplx *found, size_t count, cplx *root);
