@@ -21,10 +21,14 @@ double mesh_tension(const cable_piece *piece, double s)
     return hypot(piece->h, piece->v + piece->section->weight * s);
 }
 
+/* With stiff statics e = (F.t + Q0 th)/EA has layers too. */
 static void cell(const mesh_cell *c, mesh *m)
 {
-    if (m->cells != NULL)
+    if (m->cells != NULL) {
         m->cells[m->count] = *c;
+        if (m->rod)
+            m->cells[m->count].strain_degree = c->degree;
+    }
     m->count++;
 }
 
@@ -126,6 +130,7 @@ void mesh_make(const strum_hanging *cable, const motion_choice *choice, mesh *m)
 {
     double all = 0;
     m->count = 0;
+    m->rod = cable->rod != NULL;
     for (size_t i = choice->first_piece; i < choice->last_piece; i++)
         all += travel(cable->pieces + i);
     for (size_t i = choice->first_piece; i < choice->last_piece; i++) {

@@ -14,6 +14,7 @@ typedef struct {
 typedef struct {
     mesh_cell *cells; /* NULL: only count */
     int count;
+    bool rod; /* bending stiffness in the static shape */
 } mesh;
 
 /* Force at `s` from the start of a piece: its size is the tension. */

@@ -5,6 +5,7 @@
 
 #include "core/cable/mesh.h"
 #include "core/cable/motion.h"
+#include "core/cable/rod.h"
 #include "core/cable/rule.h"
 #include "core/cable/spans.h"
 
@@ -80,7 +81,7 @@ static void end_springs(motion *m)
 
 static strum_status make_elements(const motion_choice *choice, motion *m)
 {
-    mesh cells = {NULL, 0};
+    mesh cells = {NULL, 0, false};
     rule_set rules = {.count = 0};
     mesh_make(m->cable, choice, &cells);
     cells.cells = arena_alloc(m->memory, (size_t)cells.count, sizeof *cells.cells);
@@ -117,6 +118,10 @@ static strum_status make_elements(const motion_choice *choice, motion *m)
 motion_state motion_state_at(const strum_hanging *cable, size_t piece, double s)
 {
     const cable_piece *p = cable->pieces + piece;
+    if (rod_bends(cable, piece)) {
+        const rod_point at = rod_at(cable, piece, s, false);
+        return (motion_state){at.normal, at.shear, cos(at.angle), sin(at.angle), at.turn};
+    }
     const double tension = mesh_tension(p, s);
     if (p->lies)
         return (motion_state){tension, 0, p->bed_x, p->bed_z, 0};
@@ -164,12 +169,15 @@ static strum_status make_states(motion *m)
     double **tables[] = {&m->normal_x,    &m->normal_z,       &m->stretch,
                          &m->tension,     &m->mass_normal,    &m->mass_tangential,
                          &m->drag_normal, &m->drag_tangential};
+    const bool sheared = m->cable->rod != NULL && m->components == 2;
     const size_t count = drags(m) ? 8 : 6;
-    double *room = arena_room(m->memory, count * n);
+    double *room = arena_room(m->memory, 9 * n);
     if (room == NULL)
         return STRUM_ERR_MEMORY;
     for (size_t i = 0; i < count; i++)
         *tables[i] = room + i * n;
+    if (sheared)
+        m->shear = room + 8 * n;
     for (int i = 0; i < m->element_count; i++)
         for (int q = 0; q < m->elements[i].rule->points; q++)
             fill_point(m, m->elements + i, q);

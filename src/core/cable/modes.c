@@ -113,7 +113,8 @@ strum_status strum_cable_modes_solve(const strum_hanging *cable,
     if (params->count < 1 || params->count > STRUM_CABLE_MODES_MAX)
         return error_at(error, STRUM_ERR_RANGE, STRUM_CABLE_ARG_COUNT, STRUM_NO_INDEX,
                         "the number of modes must be between 1 and %d", STRUM_CABLE_MODES_MAX);
-    if (!(cable->statics.tension_min > 0) && !cable->statics.slack)
+    /* a rod may be compressed: its stiffness matrix says whether it is stable */
+    if (cable->rod == NULL && !(cable->statics.tension_min > 0) && !cable->statics.slack)
         return error_set(error, STRUM_ERR_IMPOSSIBLE,
                          "the cable has no tension at a point: it has no small linear motion");
     if (cable->params.spans > 1 && cable->rod != NULL)
