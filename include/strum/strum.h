@@ -30,5 +30,7 @@
 #include <strum/handbook.h>
 #include <strum/taut.h>
 #include <strum/absorber.h>
+#include <strum/cable.h>
+#include <strum/identify.h>
 
 #endif

@@ -34,12 +34,12 @@ static cJSON *number_value(const char *value, size_t size)
     return cJSON_CreateNumber(strtod(copy, NULL));
 }
 
-static cJSON *list_value(const char *value)
+static cJSON *list_value(const char *value, bool numbers)
 {
     cJSON *list = cJSON_CreateArray();
     for (const char *at = value; list != NULL;) {
         const size_t size = strcspn(at, ",");
-        cJSON *item = number_value(at, size);
+        cJSON *item = numbers ? number_value(at, size) : text_value(at, size);
         if (item == NULL || !cJSON_AddItemToArray(list, item)) {
             cJSON_Delete(item);
             cJSON_Delete(list);
@@ -60,7 +60,8 @@ static cJSON *field_value(const field *f, const char *value)
         return number_value(value, strlen(value));
     case FIELD_NUMBERS:
     case FIELD_COMPLEXES:
-        return list_value(value);
+    case FIELD_CHOICES:
+        return list_value(value, f->kind != FIELD_CHOICES);
     case FIELD_FLAG:
         if (strcmp(value, "true") == 0 || strcmp(value, "false") == 0)
             return cJSON_CreateBool(value[0] == 't');
@@ -71,6 +72,29 @@ static cJSON *field_value(const field *f, const char *value)
     return text_value(value, strlen(value));
 }
 
+static bool is_list(field_kind kind)
+{
+    return kind == FIELD_NUMBERS || kind == FIELD_COMPLEXES;
+}
+
+/* Adds the field to the object; a list that is named again goes on. Takes over `item`. */
+static bool add_field(cJSON *object, const char *name, cJSON *item)
+{
+    cJSON *before = cJSON_GetObjectItemCaseSensitive(object, name);
+    if (item == NULL)
+        return false;
+    if (!cJSON_IsArray(before) || !cJSON_IsArray(item)) {
+        const bool added = cJSON_AddItemToObject(object, name, item);
+        if (!added)
+            cJSON_Delete(item);
+        return added;
+    }
+    while (item->child != NULL)
+        cJSON_AddItemToArray(before, cJSON_DetachItemViaPointer(item, item->child));
+    cJSON_Delete(item);
+    return true;
+}
+
 /* True when the pair may stand in a query string. */
 static bool pair_allowed(const schema *s, const query_pair *pair, field_set *seen, problem *p)
 {
@@ -79,7 +103,7 @@ static bool pair_allowed(const schema *s, const query_pair *pair, field_set *see
         return true; /* the reader names it, with what is near */
     const json_place place = {.name = pair->name};
     const field_kind kind = s->fields[row].kind;
-    if (*seen & row_bit(row)) {
+    if (*seen & row_bit(row) && !is_list(kind)) {
         json_fault(p, &place, "given more than once");
         return false;
     }
@@ -104,9 +128,7 @@ void *schema_read_query(const schema *s, const query_pair *pairs, size_t count,
         const int row = schema_row(s, pairs[i].name, 0);
         cJSON *item =
             row >= 0 ? field_value(&s->fields[row], pairs[i].value) : cJSON_CreateNull();
-        good = item != NULL && cJSON_AddItemToObject(object, pairs[i].name, item);
-        if (!good)
-            cJSON_Delete(item);
+        good = add_field(object, pairs[i].name, item);
     }
     if (!good)
         problem_out_of_memory(p);

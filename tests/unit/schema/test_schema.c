@@ -370,6 +370,11 @@ static void query_is_the_same_request(void **state)
                                 {"plane", "both"},
                                 {"modes", "6"}},
                  5, "{\"chi\": [-1, 0, 2.5], \"verify\": true, \"sag_parameter\": 0.5}");
+    /* a list may be named again: it goes on */
+    expect_query(
+        (query_pair[]){
+            {"chi", "-1"}, {"sag_parameter", "0.5"}, {"chi", "0,1"}, {"chi", "2.5e0"}},
+        4, "{\"chi\": [-1, 0, 1, 2.5], \"sag_parameter\": 0.5}");
     expect_query((query_pair[]){{"xi_1", "-1e-1"}, {"xi_2", "3"}, {"verify", "false"}}, 3,
                  "{\"xi_1\": -0.1, \"xi_2\": 3.0}");
 }
