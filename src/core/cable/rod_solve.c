@@ -8,9 +8,9 @@
 #include "core/cable/rod.h"
 #include "core/cable/rod_element.h"
 
-#define STEPS_MAX    80
+#define STEPS_MAX    40
 #define TURN_MAX     0.3 /* largest step of an angle, in radians */
-#define HALVINGS_MAX 4
+#define HALVINGS_MAX 3
 /* Of the largest angle: what the last bubbles of an element may be. */
 #define TAIL 1e-10
 /* Estimated time of an element, in microseconds. */
