@@ -17,11 +17,12 @@ strum_status rod_rule_make(int degree, arena *memory, rod_rule *rule)
     double bubble[ROD_DEGREE_MAX];
     const int n = points_for(degree);
     *rule = (rod_rule){.degree = degree, .points = n};
-    rule->x = arena_doubles(memory, (size_t)n * (size_t)(degree + 3));
+    rule->x = arena_doubles(memory, (size_t)n * (size_t)(2 * degree + 4));
     if (rule->x == NULL)
         return STRUM_ERR_MEMORY;
     rule->w = rule->x + n;
     rule->value = rule->w + n;
+    rule->at = rule->value + n * (degree + 1);
     gauss_legendre(n, rule->x, rule->w);
     for (int q = 0; q < n; q++) {
         rod_bubbles(degree, rule->x[q], bubble);
@@ -29,6 +30,8 @@ strum_status rod_rule_make(int degree, arena *memory, rod_rule *rule)
         rule->value[n + q] = (1 + rule->x[q]) / 2;
         for (int k = 2; k <= degree; k++)
             rule->value[k * n + q] = bubble[k - 2];
+        for (int k = 0; k <= degree; k++)
+            rule->at[q * (degree + 1) + k] = rule->value[k * n + q];
     }
     return STRUM_OK;
 }
@@ -86,25 +89,21 @@ static void at_points(const strum_hanging *cable, const rod_element *e, const ro
 
 /* The lower triangle of the stiffness [column * count + row], and the columns. */
 static void integrate(const strum_hanging *cable, const rod_element *e, const rod_rule *rule,
-                      const fields *f, double *weighted, double *k, double *columns)
+                      const fields *f, double *k, double *columns)
 {
     const int n = rule->points, count = e->degree + 1;
-    for (int a = 0; a < count; a++) {
-        const double *value = rule->value + a * n;
-        for (int q = 0; q < n; q++)
-            weighted[q] = value[q] * f->stiffness[q];
-        for (int b = a; b < count; b++) {
-            double sum = 0;
-            for (int q = 0; q < n; q++)
-                sum += weighted[q] * rule->value[b * n + q];
-            k[a * count + b] = sum;
+    memset(k, 0, (size_t)(count * count) * sizeof *k);
+    memset(columns, 0, (size_t)(count * ROD_COLUMNS) * sizeof *columns);
+    for (int q = 0; q < n; q++) {
+        const double *value = rule->at + q * count;
+        for (int a = 0; a < count; a++) {
+            const double weighted = value[a] * f->stiffness[q];
+            for (int b = a; b < count; b++)
+                k[a * count + b] += weighted * value[b];
         }
-        for (int c = 0; c < ROD_COLUMNS; c++) {
-            double sum = 0;
-            for (int q = 0; q < n; q++)
-                sum += value[q] * f->column[c][q];
-            columns[c * count + a] = sum;
-        }
+        for (int c = 0; c < ROD_COLUMNS; c++)
+            for (int a = 0; a < count; a++)
+                columns[c * count + a] += value[a] * f->column[c][q];
     }
     /* INT EI th'^2/2: bubbles' derivatives are orthonormal */
     const double bending = cable->pieces[e->piece].section->bending_stiffness / e->half;
@@ -190,19 +189,19 @@ rod_condensed rod_condense(const strum_hanging *cable, const rod_element *e,
 {
     const int n = rule->points, count = e->degree + 1;
     rod_condensed out = {.stable = true};
-    double *k = room, *columns = k + count * count, *weighted = columns + ROD_COLUMNS * count;
-    const fields f = {.angle = weighted + n,
-                      .stiffness = weighted + 2 * n,
-                      .column = {weighted + 3 * n, weighted + 4 * n, weighted + 5 * n}};
+    double *k = room, *columns = k + count * count, *values = columns + ROD_COLUMNS * count;
+    const fields f = {.angle = values,
+                      .stiffness = values + n,
+                      .column = {values + 2 * n, values + 3 * n, values + 4 * n}};
     angles(cable, e, rule, f.angle);
     at_points(cable, e, rule, &f, &out);
-    integrate(cable, e, rule, &f, weighted, k, columns);
+    integrate(cable, e, rule, &f, k, columns);
     if (!factor(count, k)) {
         /* compressed beyond what its bending bears: as if it were not, for a step */
         out.stable = false;
         for (int q = 0; q < n; q++)
             f.stiffness[q] = fabs(f.stiffness[q]);
-        integrate(cable, e, rule, &f, weighted, k, columns);
+        integrate(cable, e, rule, &f, k, columns);
         (void)factor(count, k);
     }
     condense(count, k, columns, solved, &out);

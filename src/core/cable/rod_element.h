@@ -10,6 +10,7 @@ typedef struct {
     int degree, points;
     double *x, *w;
     double *value; /* [function * points + point] */
+    double *at;    /* [point * (degree + 1) + function] */
 } rod_rule;
 
 /* Right-hand columns: the energy's derivative by the angles, and its mixed ones with the force. */
