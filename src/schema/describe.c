@@ -83,6 +83,8 @@ static void describe_variants(const field *f, bool variables, json_writer *json)
     json_close_object(json);
 }
 
+static void describe_words(const field *f, json_writer *json);
+
 static void describe_list(const field *f, bool variables, json_writer *json)
 {
     json_put_string(json, "type", "array");
@@ -90,6 +92,8 @@ static void describe_list(const field *f, bool variables, json_writer *json)
         json_put_integer(json, "minItems", (int64_t)f->min_items);
     if (f->max_items > 0)
         json_put_integer(json, "maxItems", (int64_t)f->max_items);
+    if (f->kind == FIELD_CHOICES)
+        json_put_flag(json, "uniqueItems", true);
     json_key(json, "items");
     if (f->kind == FIELD_VARIANTS) {
         describe_variants(f, variables, json);
@@ -100,7 +104,9 @@ static void describe_list(const field *f, bool variables, json_writer *json)
         return;
     }
     json_open_object(json);
-    if (f->kind == FIELD_COMPLEXES) {
+    if (f->kind == FIELD_CHOICES) {
+        describe_words(f, json);
+    } else if (f->kind == FIELD_COMPLEXES) {
         describe_complex(f, json);
     } else {
         json_put_string(json, "type", f->flags & FIELD_WHOLE ? "integer" : "number");

@@ -245,6 +245,30 @@ static bool read_numbers(reading *r, const field *f, const cJSON *list, const js
     return good;
 }
 
+/* Some of the choices, each once. */
+static bool read_choices(reading *r, const field *f, const cJSON *list, const json_place *place,
+                         choices_value *value)
+{
+    void *items;
+    size_t count;
+    if (!begin_list(r, f, list, place, sizeof(int), &items, &count))
+        return false;
+    bool good = true;
+    json_place at = {.parent = place};
+    for (const cJSON *item = list->child; item != NULL; item = item->next, at.index++) {
+        int choice = 0;
+        if (!read_choice(r, f, item, &at, &choice)) {
+            good = false;
+        } else if (value->bits & (uint64_t)1 << choice) {
+            json_fault(r->p, &at, "given more than once");
+            good = false;
+        } else {
+            value->bits |= (uint64_t)1 << choice;
+        }
+    }
+    return good;
+}
+
 static bool read_complex(reading *r, const field *f, const cJSON *item, const json_place *place,
                          double _Complex *value)
 {
@@ -372,6 +396,8 @@ static bool read_field(reading *r, const field *f, const cJSON *item, const json
         return cJSON_IsBool(item) || expected(r, place, "true or false", item);
     case FIELD_CHOICE:
         return read_choice(r, f, item, place, value);
+    case FIELD_CHOICES:
+        return read_choices(r, f, item, place, value);
     case FIELD_NAME:
         return read_name(r, item, place, value);
     case FIELD_NUMBERS:

@@ -32,6 +32,7 @@ typedef enum field_kind {
     FIELD_INTEGER, /* int64_t */
     FIELD_FLAG,    /* bool */
     FIELD_CHOICE,  /* int: index into `choices` */
+    FIELD_CHOICES, /* choices_value: some of `choices`, each once, in any order */
     FIELD_NAME, /* name_value: a short identifier ([A-Za-z_][A-Za-z0-9_]*, at most NAME_MAX_SIZE
                    - 1) */
     FIELD_NUMBERS,   /* numbers_value */
@@ -64,6 +65,10 @@ typedef uint64_t field_set;
 typedef struct name_value {
     char text[NAME_MAX_SIZE];
 } name_value;
+/* Bit i: choice i is among them. */
+typedef struct choices_value {
+    uint64_t bits;
+} choices_value;
 typedef struct numbers_value {
     double *items;
     size_t count;
@@ -112,7 +117,7 @@ typedef struct field {
     unsigned flags;
     double fallback;
     const char *help;            /* one line */
-    const char *const *choices;  /* FIELD_CHOICE: NULL-terminated */
+    const char *const *choices;  /* FIELD_CHOICE, FIELD_CHOICES (at most 64): NULL-terminated */
     const schema *schema;        /* FIELD_OBJECT, FIELD_OBJECTS */
     const variant *variants;     /* FIELD_VARIANTS: ends with type NULL */
     size_t min_items, max_items; /* lists; max_items 0: as many as a document may hold */

@@ -65,6 +65,16 @@ static size_t list_count(const field *f, const void *value)
                                         : ((const objects_value *)value)->count;
 }
 
+/* In the table's order, whatever the client's was. */
+static void echo_choices(const field *f, const choices_value *value, json_writer *json)
+{
+    json_open_array(json);
+    for (int i = 0; f->choices[i] != NULL; i++)
+        if (value->bits & (uint64_t)1 << i)
+            json_string(json, f->choices[i]);
+    json_close_array(json);
+}
+
 static void echo_value(const field *f, const void *value, json_writer *json)
 {
     switch (f->kind) {
@@ -82,6 +92,9 @@ static void echo_value(const field *f, const void *value, json_writer *json)
         break;
     case FIELD_CHOICE:
         json_string(json, f->choices[*(const int *)value]);
+        break;
+    case FIELD_CHOICES:
+        echo_choices(f, value, json);
         break;
     case FIELD_NAME:
         json_string(json, ((const name_value *)value)->text);
@@ -192,6 +205,17 @@ static void canonical_item(const field *f, const void *value, size_t i, strbuf *
     }
 }
 
+static void canonical_choices(const field *f, const choices_value *value, strbuf *out)
+{
+    add_tag(out, 'l');
+    add_word(out, (uint64_t)__builtin_popcountll(value->bits));
+    for (int i = 0; f->choices[i] != NULL; i++)
+        if (value->bits & (uint64_t)1 << i) {
+            add_tag(out, 's');
+            add_name(out, f->choices[i]);
+        }
+}
+
 static void canonical_value(const field *f, const void *value, strbuf *out)
 {
     switch (f->kind) {
@@ -209,6 +233,9 @@ static void canonical_value(const field *f, const void *value, strbuf *out)
     case FIELD_CHOICE:
         add_tag(out, 's');
         add_name(out, f->choices[*(const int *)value]);
+        break;
+    case FIELD_CHOICES:
+        canonical_choices(f, value, out);
         break;
     case FIELD_NAME:
         add_tag(out, 's');

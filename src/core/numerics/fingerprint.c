@@ -50,7 +50,8 @@ static void add_functions(digest *d)
         const double x = u * size, y = fabs(v) + 0x1p-60, large = fmin(fmax(x, -300.0), 300.0);
         double sine, cosine;
         sincos(x, &sine, &cosine);
-        const double _Complex z = CMPLX(large, v * size), root = csqrt(z), grown = cexp(z);
+        const double _Complex z = CMPLX(large, v * size), root = csqrt(z), grown = cexp(z),
+                              wave = csin(z), other = ccos(z);
         const double values[] = {sine,         cosine,      sin(x),           cos(x),
                                  tan(x),       atan(x),     atan2(x, v),      asin(u),
                                  acos(u),      exp(large),  expm1(large),     log(y * size),
@@ -58,7 +59,8 @@ static void add_functions(digest *d)
                                  cosh(large),  tanh(u),     asinh(x),         acosh(1.0 + y),
                                  atanh(u),     cbrt(x),     hypot(x, v),      exp2(u),
                                  log2(y),      creal(root), cimag(root),      creal(grown),
-                                 cimag(grown), cabs(z),     carg(z),          lgamma(1.0 + y)};
+                                 cimag(grown), cabs(z),     carg(z),          lgamma(1.0 + y),
+                                 creal(wave),  cimag(wave), creal(other),     cimag(other)};
         add(d, values, sizeof values / sizeof *values);
     }
 }
@@ -80,6 +82,24 @@ static void add_vectors(digest *d, int n, const double *a, const double *b, doub
     add(d, c, (size_t)n);
     cblas_dgemv(CblasColMajor, CblasTrans, n, n, 1.0, a, n, b, 1, 0.0, c, 1);
     add(d, c, (size_t)n);
+}
+
+/* Least squares and singular values of a few columns of `a`, with room in `e`. */
+static strum_status add_narrow(digest *d, int n, const double *a, double *e)
+{
+    const int columns = n < 4 ? 1 : 4;
+    const size_t size = (size_t)n * (size_t)columns;
+    double values[LINALG_NARROW], vt[LINALG_NARROW * LINALG_NARROW];
+    memcpy(e, a, size * sizeof *e);
+    strum_status status = linalg_singular(n, columns, e, n, values, vt);
+    add(d, values, (size_t)columns);
+    add(d, vt, (size_t)columns * (size_t)columns);
+    memcpy(e, a, size * sizeof *e);
+    memcpy(e + size, a + n, (size_t)n * sizeof *e);
+    if (status == STRUM_OK)
+        status = linalg_least_squares(n, columns, e, n, e + size);
+    add(d, e + size, (size_t)columns);
+    return status;
 }
 
 /* Each function of linalg.h at order n. */
@@ -115,6 +135,8 @@ static strum_status add_matrices(digest *d, int n, arena *scratch)
         status = linalg_semidefinite_root(n, c, n, e, &rank, NULL);
     if (status == STRUM_OK)
         add(d, e, square);
+    if (status == STRUM_OK)
+        status = add_narrow(d, n, a, e);
     if (status == STRUM_OK)
         status = linalg_quadratic(n, b, c, values, z, NULL);
     for (int i = 0; status == STRUM_OK && i < 2 * n; i++)

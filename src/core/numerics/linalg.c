@@ -371,6 +371,29 @@ strum_status linalg_quadratic(int n, const double *c, const double *m, double _C
     return status;
 }
 
+strum_status linalg_least_squares(int rows, int n, double *a, int lda, double *b)
+{
+    double room[64 * LINALG_NARROW];
+    const lapack_int info = LAPACKE_dgels_work(LAPACK_COL_MAJOR, 'N', rows, n, 1, a, lda, b,
+                                               rows, room, 64 * LINALG_NARROW);
+    return info == 0 ? STRUM_OK : info > 0 ? STRUM_ERR_ACCURACY : STRUM_ERR_INTERNAL;
+}
+
+strum_status linalg_singular(int rows, int n, double *a, int lda, double *values, double *vt)
+{
+    /* R of A = QR has the same singular values and right vectors, and needs no room of A's size. */
+    double tau[LINALG_NARROW], room[64 * LINALG_NARROW], r[LINALG_NARROW * LINALG_NARROW], none;
+    lapack_int info = LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, rows, n, a, lda, tau, room,
+                                          64 * LINALG_NARROW);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++)
+            r[i + j * n] = i <= j ? a[i + (size_t)j * (size_t)lda] : 0;
+    if (info == 0)
+        info = LAPACKE_dgesvd_work(LAPACK_COL_MAJOR, 'N', 'A', n, n, r, n, values, &none, 1, vt, n,
+                                   room, 64 * LINALG_NARROW);
+    return info == 0 ? STRUM_OK : info > 0 ? STRUM_ERR_ACCURACY : STRUM_ERR_INTERNAL;
+}
+
 strum_status linalg_complex_solve(int n, double _Complex *z, double _Complex *r, work *w)
 {
     const strum_status status = work_spend(w, 8e-4 * n * n * (double)n);

@@ -44,6 +44,15 @@ strum_status linalg_semidefinite_root(int n, const double *a, int lda, double *l
 strum_status linalg_quadratic(int n, const double *c, const double *m, double _Complex *values,
                               double _Complex *vectors, work *w);
 
+/* Least squares: x minimises |A x - b| (A rows x n, rows >= n <= LINALG_NARROW, both destroyed; x
+ * is the head of b). STRUM_ERR_ACCURACY where A has not the rank n. */
+#define LINALG_NARROW 8
+strum_status linalg_least_squares(int rows, int n, double *a, int lda, double *b);
+
+/* Singular values of A (rows x n, destroyed; rows >= n <= LINALG_NARROW), descending, and the right
+ * vectors as the rows of vt (n x n, column-major). */
+strum_status linalg_singular(int rows, int n, double *a, int lda, double *values, double *vt);
+
 /* Solves Z x = r in place: Z (n x n) is destroyed, r becomes x. */
 strum_status linalg_complex_solve(int n, double _Complex *z, double _Complex *r, work *w);
 

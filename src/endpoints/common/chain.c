@@ -363,8 +363,15 @@ static strum_taut_component make_part(workshop *w, const object_item *item)
     return out;
 }
 
-strum_status chain_make(const chain_input *in, const chain_variables *x, strum_taut **chain,
-                        strum_error *fault)
+void chain_parts_free(chain_parts *p)
+{
+    free(p->parts);
+    free(p->links);
+    free(p->joints);
+    *p = (chain_parts){0};
+}
+
+strum_status chain_parts_make(const chain_input *in, const chain_variables *x, chain_parts *out)
 {
     const size_t count = in->components.count;
     const object_item *items = in->components.items;
@@ -373,21 +380,30 @@ strum_status chain_make(const chain_input *in, const chain_variables *x, strum_t
         links += items[i].variant == INLINE_ABSORBER
                      ? ((const chain_part *)items[i].object)->links.count
                      : 1;
-    *chain = NULL;
-    strum_taut_component *parts = malloc(count * sizeof *parts);
-    strum_taut_link *all_links = malloc(links * sizeof *all_links);
-    strum_taut_joint *all_joints = malloc(links * sizeof *all_joints);
-    strum_status status = STRUM_ERR_MEMORY;
-    if (parts != NULL && all_links != NULL && all_joints != NULL) {
-        workshop w = {x, chain_number(&in->tension_N, x), all_links, all_joints};
-        for (size_t i = 0; i < count; i++)
-            parts[i] = make_part(&w, &items[i]);
-        status = strum_taut_make(parts, count, (strum_taut_end)in->left_end,
-                                 (strum_taut_end)in->right_end, chain, fault);
+    *out = (chain_parts){malloc(count * sizeof *out->parts), count,
+                         malloc(links * sizeof *out->links),
+                         malloc(links * sizeof *out->joints)};
+    if (out->parts == NULL || out->links == NULL || out->joints == NULL) {
+        chain_parts_free(out);
+        return STRUM_ERR_MEMORY;
     }
-    free(parts);
-    free(all_links);
-    free(all_joints);
+    workshop w = {x, chain_number(&in->tension_N, x), out->links, out->joints};
+    for (size_t i = 0; i < count; i++)
+        out->parts[i] = make_part(&w, &items[i]);
+    return STRUM_OK;
+}
+
+strum_status chain_make(const chain_input *in, const chain_variables *x, strum_taut **chain,
+                        strum_error *fault)
+{
+    *chain = NULL;
+    chain_parts p;
+    strum_status status = chain_parts_make(in, x, &p);
+    if (status != STRUM_OK)
+        return status;
+    status = strum_taut_make(p.parts, p.count, (strum_taut_end)in->left_end,
+                             (strum_taut_end)in->right_end, chain, fault);
+    chain_parts_free(&p);
     return status;
 }
 

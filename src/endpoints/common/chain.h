@@ -58,6 +58,15 @@ void chain_prepare(const chain_input *in, problem *p);
 /* The chain; the caller ends it by strum_taut_free. */
 strum_status chain_make(const chain_input *in, const chain_variables *x, strum_taut **chain,
                         strum_error *fault);
+/* The components alone, with all that they point to; ended by chain_parts_free. */
+typedef struct chain_parts {
+    strum_taut_component *parts;
+    size_t count;
+    strum_taut_link *links;
+    strum_taut_joint *joints;
+} chain_parts;
+strum_status chain_parts_make(const chain_input *in, const chain_variables *x, chain_parts *out);
+void chain_parts_free(chain_parts *p);
 /* How many cables of varying tension are solved exactly. */
 size_t chain_varying(const chain_input *in);
 /* Mean mass per length of the cables of a chain, kg/m; 0 without any. */

@@ -302,7 +302,7 @@ enum MHD_Result dispatch_body(connection *p, const char *bytes, size_t size)
     }
     if (r->body_seen > limit + BODY_DRAIN)
         return MHD_NO;
-    if (!r->refusal.status && !memory_take_body(&p->service->memory, size)) {
+    if (!r->refusal.status && !memory_take_body(&p->service->memory, r->body_counted, size)) {
         problem_set(&r->refusal, 503, "no memory is free for this body; try again later");
         r->close = true;
     }

@@ -29,6 +29,8 @@ static size_t value_size(const field *f)
         return sizeof(bool);
     case FIELD_CHOICE:
         return sizeof(int);
+    case FIELD_CHOICES:
+        return sizeof(choices_value);
     case FIELD_NAME:
         return sizeof(name_value);
     case FIELD_NUMBERS:
@@ -97,7 +99,10 @@ static void check_field(const schema *s, const field *f, bool typed)
         demand(f->fallback >= 0 && f->fallback < count_words(f->choices), "%s: no such default",
                f->name);
     }
-    const bool list = f->kind == FIELD_NUMBERS || f->kind == FIELD_COMPLEXES ||
+    if (f->kind == FIELD_CHOICES)
+        demand(f->choices != NULL && f->choices[0] != NULL && count_words(f->choices) <= 64,
+               "%s: 1 to 64 words", f->name);
+    const bool list = f->kind == FIELD_NUMBERS || f->kind == FIELD_CHOICES || f->kind == FIELD_COMPLEXES ||
                       f->kind == FIELD_OBJECTS || f->kind == FIELD_VARIANTS;
     demand(!((list || f->kind == FIELD_NAME) && f->flags & FIELD_DEFAULT),
            "%s: lists and names have no defaults", f->name);
