@@ -127,7 +127,8 @@ def test_the_worked_example_of_a_page_runs(strumd, path):
     text = strumd.get(path).text
     lines = snippets(text)
     assert set(lines) >= {"curl", "python", "javascript"}
-    assert ("get" in lines) == ("get" in CONTRACT["paths"][f"/v1/{path[6:].replace('-', '/', 1)}"])
+    # where an example has nested fields only a body can hold it
+    assert "get" not in lines or "get" in CONTRACT["paths"][f"/v1/{path[6:].replace('-', '/', 1)}"]
     live = json.loads(run("curl", lines["curl"], strumd))
     assert "get" not in lines or json.loads(run("get", lines["get"], strumd)) == live
     for kind in ("python", "javascript"):
