@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/numerics/gauss.h"
+#include "core/numerics/linalg.h"
 
 /* Sizes of which the nodes are constants. */
 static int points_for(int degree)
@@ -17,12 +18,11 @@ strum_status rod_rule_make(int degree, arena *memory, rod_rule *rule)
     double bubble[ROD_DEGREE_MAX];
     const int n = points_for(degree);
     *rule = (rod_rule){.degree = degree, .points = n};
-    rule->x = arena_doubles(memory, (size_t)n * (size_t)(2 * degree + 4));
+    rule->x = arena_doubles(memory, (size_t)n * (size_t)(degree + 3));
     if (rule->x == NULL)
         return STRUM_ERR_MEMORY;
     rule->w = rule->x + n;
     rule->value = rule->w + n;
-    rule->at = rule->value + n * (degree + 1);
     gauss_legendre(n, rule->x, rule->w);
     for (int q = 0; q < n; q++) {
         rod_bubbles(degree, rule->x[q], bubble);
@@ -30,8 +30,6 @@ strum_status rod_rule_make(int degree, arena *memory, rod_rule *rule)
         rule->value[n + q] = (1 + rule->x[q]) / 2;
         for (int k = 2; k <= degree; k++)
             rule->value[k * n + q] = bubble[k - 2];
-        for (int k = 0; k <= degree; k++)
-            rule->at[q * (degree + 1) + k] = rule->value[k * n + q];
     }
     return STRUM_OK;
 }
@@ -87,24 +85,17 @@ static void at_points(const strum_hanging *cable, const rod_element *e, const ro
     }
 }
 
-/* The lower triangle of the stiffness [column * count + row], and the columns. */
+/* The stiffness [column * count + row], and the columns. */
 static void integrate(const strum_hanging *cable, const rod_element *e, const rod_rule *rule,
-                      const fields *f, double *k, double *columns)
+                      const fields *f, double *weighted, double *k, double *columns)
 {
     const int n = rule->points, count = e->degree + 1;
-    memset(k, 0, (size_t)(count * count) * sizeof *k);
-    memset(columns, 0, (size_t)(count * ROD_COLUMNS) * sizeof *columns);
-    for (int q = 0; q < n; q++) {
-        const double *value = rule->at + q * count;
-        for (int a = 0; a < count; a++) {
-            const double weighted = value[a] * f->stiffness[q];
-            for (int b = a; b < count; b++)
-                k[a * count + b] += weighted * value[b];
-        }
-        for (int c = 0; c < ROD_COLUMNS; c++)
-            for (int a = 0; a < count; a++)
-                columns[c * count + a] += value[a] * f->column[c][q];
-    }
+    for (int a = 0; a < count; a++)
+        for (int q = 0; q < n; q++)
+            weighted[a * n + q] = rule->value[a * n + q] * f->stiffness[q];
+    /* the columns follow the weighted functions */
+    linalg_multiply('T', 'N', count, count + ROD_COLUMNS, n, rule->value, n, weighted, n, k,
+                    count);
     /* INT EI th'^2/2: bubbles' derivatives are orthonormal */
     const double bending = cable->pieces[e->piece].section->bending_stiffness / e->half;
     const double *angle = cable->rod->angle + e->node;
@@ -189,21 +180,39 @@ rod_condensed rod_condense(const strum_hanging *cable, const rod_element *e,
 {
     const int n = rule->points, count = e->degree + 1;
     rod_condensed out = {.stable = true};
-    double *k = room, *columns = k + count * count, *values = columns + ROD_COLUMNS * count;
-    const fields f = {.angle = values,
-                      .stiffness = values + n,
-                      .column = {values + 2 * n, values + 3 * n, values + 4 * n}};
+    double *k = room, *columns = k + count * count;
+    double *weighted = columns + ROD_COLUMNS * count, *fields_at = weighted + n * count;
+    const fields f = {.angle = fields_at + 3 * n,
+                      .stiffness = fields_at + 4 * n,
+                      .column = {fields_at, fields_at + n, fields_at + 2 * n}};
     angles(cable, e, rule, f.angle);
     at_points(cable, e, rule, &f, &out);
-    integrate(cable, e, rule, &f, k, columns);
+    integrate(cable, e, rule, &f, weighted, k, columns);
     if (!factor(count, k)) {
         /* compressed beyond what its bending bears: as if it were not, for a step */
         out.stable = false;
         for (int q = 0; q < n; q++)
             f.stiffness[q] = fabs(f.stiffness[q]);
-        integrate(cable, e, rule, &f, k, columns);
+        integrate(cable, e, rule, &f, weighted, k, columns);
         (void)factor(count, k);
     }
     condense(count, k, columns, solved, &out);
     return out;
+}
+
+void rod_reach(const strum_hanging *cable, const rod_element *e, const rod_rule *rule,
+               double *room, double *x, double *z, double *length)
+{
+    const cable_piece *piece = cable->pieces + e->piece;
+    angles(cable, e, rule, room);
+    *x = *z = *length = 0;
+    for (int q = 0; q < rule->points; q++) {
+        const double s = e->from + e->half * (1 + rule->x[q]), weight = e->half * rule->w[q];
+        const double c = cos(room[q]), d = sin(room[q]);
+        const double normal = piece->h * c + (piece->v + piece->section->weight * s) * d;
+        const double by = weight * (1 + normal / piece->section->axial_stiffness);
+        *x += by * c;
+        *z += by * d;
+        *length += by;
+    }
 }
