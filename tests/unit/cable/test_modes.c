@@ -338,6 +338,29 @@ static void spans_in_a_row(void **state)
     check_two_spans(STRUM_OUT_OF_PLANE, 900);
 }
 
+/* The second method finds the same modes: bending layers, bodies, drag and loss, stiff statics, an
+ * absorber, what slides. */
+static void second_method(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"sagei-03-in", "mass-08-in", "damp-1c", "tmd-3",
+                                        "loss-8",      "stiff-03",   "beam-11"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        const mode_case *c = mode_cases;
+        strum_verification verification;
+        while (strcmp(c->name, names[k]) != 0)
+            c++;
+        strum_hanging *cable = hung(c);
+        strum_cable_modes *modes = solved(cable, c->plane, 3);
+        assert_int_equal(strum_cable_modes_verify(modes, NULL, &verification, NULL), STRUM_OK);
+        if (!(verification.max_relative_difference < 1e-11))
+            fail_msg("%s: %.1e", c->name, verification.max_relative_difference);
+        assert_int_equal(verification.modes_expected, verification.modes_found);
+        strum_cable_modes_free(modes);
+        strum_cable_free(cable);
+    }
+}
+
 static void refusals(void **state)
 {
     (void)state;
