@@ -83,6 +83,12 @@ def test_mirrored_it_is_the_same_cable(strumd):
         assert [mode[name] for mode in there] == pytest.approx([mode[name] for mode in here], rel=1e-9)
 
 
+@pytest.mark.parametrize("question", [STAY, EVERYTHING, ROW, CHAIN], ids=["stay", "everything", "row", "chain"])
+def test_a_second_method_agrees(strumd, question):
+    said = strumd.post({**question, "modes": 3, "verify": True}, MODES).json()["result"]["verification"]
+    assert said["max_relative_difference"] < 1e-10 and said["modes_found"] == said["modes_expected"] >= 6
+
+
 def test_a_batch_has_the_same_bytes(strumd):
     items = [{"path": path, "request": question} for path, question in QUESTIONS[:3]]
     lines = strumd.post(items, "/v1/batch").content.splitlines()
