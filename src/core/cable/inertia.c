@@ -7,8 +7,8 @@
 #include "core/cable/pivots.h"
 #include "core/numerics/linalg.h"
 
-#define FRONT_MAX 20 /* unknowns at a node: displacements, rotation, forces, what is held */
-#define HELD_MAX  8 
+#define FRONT_MAX 40 /* unknowns at a node: displacements, rotation, forces, what is held */
+#define HELD_MAX  30
 #define RIGID     1e-9 /* of the compliance of the cable across */
 
 typedef struct {
@@ -30,9 +30,9 @@ typedef struct {
  * displacements of its first node, the rotations that it shares. Forces come last. */
 typedef struct {
     int functions[2 * POINTS_MAX]; /* rotation k: k; strain k: -1 - k */
-    int inner, count;       /* own; with shared rotations */
-    bool left, right;       /* whether those rotations are shared */
-    int displaced;          /* components of its first node: 0 at end 1 */
+    int inner, count;              /* own; with shared rotations */
+    bool left, right;              /* whether those rotations are shared */
+    int displaced;                 /* components of its first node: 0 at end 1 */
 } layout;
 
 static void lay_out(const motion *m, int index, layout *l)
