@@ -57,7 +57,7 @@ status=0
 attempt() { # attempt KIND SECTION AREA ELEMENTS LOW HIGH: the excess in per cent lies between the last two
     deck "$1" "$2" "$4" >"$place/wire.inp"
     rm -f "$place/wire.dat"
-    "$place/usr/bin/ccx" -i "$place/wire" >"$place/wire.log" || { tail "$place/wire.log" && exit 2; }
+    (cd "$place" && usr/bin/ccx -i wire >wire.log) || { tail "$place/wire.log" && exit 2; }
     awk -v area="$3" -v low="$5" -v high="$6" -v what="$1, $2, $4 elements" '
         $1 == 1 && NF == 5 && !seen++ {
             excess = 100 * ($4 / (sqrt(1000 / (7800 * area)) / 20) - 1)

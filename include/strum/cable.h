@@ -11,7 +11,26 @@
  *
  * Units: SI; angles in radians.
  *
- * Ownership: structs are the caller's; a strum_cable keeps copies of all that it was made from.
+ *     strum_cable_section rope = STRUM_CABLE_SECTION_INIT;
+ *     rope.length = 850;
+ *     rope.mass = 685;
+ *     rope.weight = 5844.118;
+ *     rope.axial_stiffness = 3.27e9;
+ *     strum_cable_params line = STRUM_CABLE_PARAMS_INIT;
+ *     line.sections = &rope;
+ *     line.section_count = 1;
+ *     line.span = 779.6;
+ *     line.rise = 186;
+ *     strum_hanging *hanging;
+ *     strum_error error;
+ *     if (strum_cable_hang(&line, NULL, &hanging, &error) == STRUM_OK) {
+ *         strum_cable_statics statics;
+ *         strum_cable_statics_get(hanging, &statics);
+ *         printf("%.10g N\n", statics.tension_end_2);
+ *         strum_cable_free(hanging);
+ *     }
+ *
+ * Ownership: structs are the caller's; a strum_hanging keeps copies of all that it was made from.
  * All functions are re-entrant; an object may be read by many threads at once.
  */
 #ifndef STRUM_CABLE_H
@@ -26,6 +45,10 @@ STRUM_BEGIN_DECLS
 #define STRUM_CABLE_SECTIONS_MAX    1000
 #define STRUM_CABLE_ATTACHMENTS_MAX 1000
 #define STRUM_CABLE_SPANS_MAX       100
+/* Largest size of any number; what must be above 0 is at least 1 over it. */
+#define STRUM_CABLE_SIZE_MAX 1e30
+/* 80 degrees either way. */
+#define STRUM_CABLE_BED_SLOPE_MAX 1.3962634015954636
 
 /* A stretch of cable of one kind, per unstretched metre. */
 typedef struct strum_cable_section {
@@ -115,7 +138,7 @@ typedef enum strum_cable_given {
 typedef struct strum_cable_bed {
     bool present;
     double depth;    /* below end 1, m, >= 0 */
-    double slope;    /* -pi/2 < slope < pi/2 */
+    double slope;    /* within +-STRUM_CABLE_BED_SLOPE_MAX */
     double friction; /* >= 0 */
 } strum_cable_bed;
 
@@ -131,7 +154,7 @@ typedef struct strum_cable_params {
     bool span_unknown; /* all lengths are given, and the span follows */
     bool slack_branch; /* of two shapes with one end tension, the longer */
     strum_cable_end end_1, end_2;
-    bool stiff;   /* bending stiffness counts in the static shape */
+    bool stiff;   /* bending stiffness counts in the static shape; not on a bed */
     size_t spans; /* so many equal level spans in a row: 1 .. STRUM_CABLE_SPANS_MAX */
     double hanger_length, hanger_mass; /* between them: a rigid rod from a fixed point above */
     strum_cable_bed bed;
@@ -167,13 +190,15 @@ typedef enum strum_cable_argument {
 } strum_cable_argument;
 
 /* A cable in its static shape. */
-typedef struct strum_cable strum_cable;
+typedef struct strum_hanging strum_hanging;
 
-/* The static shape. `*cable` is the caller's, NULL after an error: STRUM_ERR_RANGE with the
+/* The static shape. Where several shapes have the figure that is given, the shortest is found, or
+ * with `slack_branch` the longest; the tension parallel to the chord is that of the first place
+ * where the cable is so. `*cable` is the caller's, NULL after an error: STRUM_ERR_RANGE with the
  * argument; STRUM_ERR_IMPOSSIBLE where no such cable hangs (the reason says why, and names the
  * least possible value where there is one). */
 strum_status strum_cable_hang(const strum_cable_params *params, const strum_options *options,
-                              strum_cable **cable, strum_error *error);
+                              strum_hanging **cable, strum_error *error);
 
 typedef struct strum_cable_place {
     double x, z;
@@ -192,27 +217,27 @@ typedef struct strum_cable_statics {
     size_t contacts;     /* stretches on the bed: strum_cable_contact_get */
     int solutions;       /* shapes that fit what was given: 1 or 2 */
     double other_length; /* unstretched length of the other one; NAN where there is none */
-    double moment_end_1, moment_end_2; /* N m; 0 with flexible statics */
+    double moment_end_1, moment_end_2; /* EI times curvature, N m; 0 with flexible statics */
     double closure;                    /* largest error of end 2's place over the length */
     double lowest_clearance;  /* smallest height above the bed of what hangs; NAN without */
     double smallest_reaction; /* of the bed, N/m or N; NAN where nothing lies */
 } strum_cable_statics;
 
-void strum_cable_statics_get(const strum_cable *cable, strum_cable_statics *statics);
+void strum_cable_statics_get(const strum_hanging *cable, strum_cable_statics *statics);
 
 typedef struct strum_cable_contact {
     double from, to; /* unstretched */
     double x_from, x_to;
     double slack_to;  /* no tension up to there; `from` where there is tension everywhere */
-    double touchdown; /* stretched length from end 1, along the bed, of `to` */
+    double touchdown; /* x_to: on a level bed the stretched length from below end 1 */
 } strum_cable_contact;
 
 /* Contact `i` from end 1; STRUM_ERR_RANGE where there is none. */
-strum_status strum_cable_contact_get(const strum_cable *cable, size_t i,
+strum_status strum_cable_contact_get(const strum_hanging *cable, size_t i,
                                      strum_cable_contact *contact);
 
 /* A section as it hangs: with its length found and the temperature applied. */
-strum_status strum_cable_section_get(const strum_cable *cable, size_t i,
+strum_status strum_cable_section_get(const strum_hanging *cable, size_t i,
                                      strum_cable_section *section);
 
 typedef struct strum_cable_joint {
@@ -222,20 +247,21 @@ typedef struct strum_cable_joint {
 } strum_cable_joint;
 
 /* Where attachment `i` (as handed in) hangs. */
-strum_status strum_cable_attachment_get(const strum_cable *cable, size_t i,
+strum_status strum_cable_attachment_get(const strum_hanging *cable, size_t i,
                                         strum_cable_joint *joint);
 
+/* tension: with bending stiffness in the shape the normal force, not the size of the force. */
 typedef struct strum_cable_point {
     double position, x, z, tension, angle;
 } strum_cable_point;
 
 /* The shape at `n` unstretched places (within 0 .. unstretched length), or, where `positions` is
  * NULL, at n >= 2 equally spaced ones, ends included. `points`: room for n. */
-strum_status strum_cable_shape(const strum_cable *cable, const double *positions, size_t n,
+strum_status strum_cable_shape(const strum_hanging *cable, const double *positions, size_t n,
                                strum_cable_point *points);
 
 /* NULL is fine. */
-void strum_cable_free(strum_cable *cable);
+void strum_cable_free(strum_hanging *cable);
 
 STRUM_END_DECLS
 #endif

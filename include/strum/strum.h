@@ -30,6 +30,8 @@
 #include <strum/handbook.h>
 #include <strum/taut.h>
 #include <strum/absorber.h>
+#include <strum/cable.h>
+#include <strum/cable_modes.h>
 #include <strum/identify.h>
 
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "cache/frequency.h"
 #include "cache/slot.h"
 
 struct flight {
@@ -21,6 +22,12 @@ struct flight {
     struct flight *before, *after; /* in the order in which they were abandoned */
 };
 
+/* Entries by their use. */
+typedef struct order {
+    struct cached *newest, *oldest;
+    size_t bytes;
+} order;
+
 struct cache {
     /* One lock: what it guards takes about 0.1 us. */
     pthread_mutex_t lock;
@@ -28,7 +35,9 @@ struct cache {
     unsigned shift;  /* 64 - log2(number of buckets) */
     uint64_t spread; /* odd and secret: nobody can choose bodies that share a bucket */
     unsigned char secret[crypto_shorthash_siphashx24_KEYBYTES]; /* of cache_key_of_body */
-    struct cached *newest, *oldest;
+    order window, kept;
+    size_t window_cap, kept_cap;
+    frequency frequency; /* of public keys */
     flight *abandoned_first, *abandoned_last;
     cache_counters count;
     atomic_size_t body_bytes;
@@ -71,26 +80,41 @@ static void slot_remove(cache *c, slot *l)
 
 /* ---- order of use ---- */
 
-static void order_remove(cache *c, struct cached *s)
+static void order_remove(struct cached *s)
 {
-    *(s->newer ? &s->newer->older : &c->newest) = s->older;
-    *(s->older ? &s->older->newer : &c->oldest) = s->newer;
+    order *o = s->in;
+    *(s->newer ? &s->newer->older : &o->newest) = s->older;
+    *(s->older ? &s->older->newer : &o->oldest) = s->newer;
+    o->bytes -= s->cost;
+    s->in = NULL;
 }
 
-static void order_add(cache *c, struct cached *s)
+static void order_add(order *o, struct cached *s)
 {
+    s->in = o;
     s->newer = NULL;
-    s->older = c->newest;
-    *(c->newest ? &c->newest->newer : &c->oldest) = s;
-    c->newest = s;
+    s->older = o->newest;
+    *(o->newest ? &o->newest->newer : &o->oldest) = s;
+    o->newest = s;
+    o->bytes += s->cost;
+}
+
+/* A key was asked for. */
+static void note(cache *c, const cache_key *key)
+{
+    const size_t least = 1024;
+    frequency_note(&c->frequency, key,
+                   8 * (c->count.entries > least ? c->count.entries : least));
 }
 
 static struct cached *touch(cache *c, slot *l)
 {
     struct cached *s = l->owner;
-    if (c->newest != s) {
-        order_remove(c, s);
-        order_add(c, s);
+    note(c, &s->entry.key);
+    if (s->in->newest != s) {
+        order *o = s->in;
+        order_remove(s);
+        order_add(o, s);
     }
     return s;
 }
@@ -112,33 +136,80 @@ static void evict(cache *c, struct cached *s)
     slot_remove(c, &s->canonical);
     for (size_t i = 0; i < RAW_SLOTS; i++)
         slot_remove(c, &s->raw[i]);
-    order_remove(c, s);
+    order_remove(s);
     c->count.bytes -= s->cost;
     c->count.entries--;
     atomic_fetch_sub_explicit(&c->body_bytes, s->entry.size, memory_order_relaxed);
     entry_unref(&s->entry);
 }
 
+static void drive_out(cache *c, struct cached *s)
+{
+    evict(c, s);
+    c->count.evictions++;
+}
+
+/* Whether all that would have to go for `s` was asked for less often. */
+static bool deserves_room(const cache *c, const struct cached *s)
+{
+    const unsigned often = frequency_of(&c->frequency, &s->entry.key);
+    size_t left = c->kept.bytes;
+    for (const struct cached *v = c->kept.oldest; v && left + s->cost > c->kept_cap;
+         v = v->newer) {
+        if (frequency_of(&c->frequency, &v->entry.key) >= often)
+            return false;
+        left -= v->cost;
+    }
+    return left + s->cost <= c->kept_cap;
+}
+
+/* Moves what the window has too much to the others, or out. */
+static void settle(cache *c)
+{
+    while (c->window.oldest && c->window.bytes > c->window_cap) {
+        struct cached *s = c->window.oldest;
+        if (!deserves_room(c, s)) {
+            drive_out(c, s);
+            continue;
+        }
+        order_remove(s);
+        while (c->kept.bytes + s->cost > c->kept_cap)
+            drive_out(c, c->kept.oldest);
+        order_add(&c->kept, s);
+    }
+    /* What was kept has grown. */
+    while (c->kept.bytes > c->kept_cap)
+        drive_out(c, c->kept.oldest);
+}
+
 static void store(cache *c, entry *e)
 {
     struct cached *s = cached_of(e);
     const size_t cost = e->size + CACHE_ENTRY_OVERHEAD;
-    if (cost > c->count.cap || slot_find(c, SLOT_CANONICAL, &e->key))
-        return;
-    while (c->oldest && c->count.bytes + cost > c->count.cap) {
-        evict(c, c->oldest);
-        c->count.evictions++;
-    }
-    if (c->count.bytes + cost > c->count.cap)
+    if (cost > c->kept_cap || slot_find(c, SLOT_CANONICAL, &e->key))
         return;
     entry_ref(e);
-    e->stored = true;
     s->cost = cost;
     slot_add(c, &s->canonical, SLOT_CANONICAL, &e->key, s);
-    order_add(c, s);
+    order_add(&c->window, s);
     c->count.bytes += cost;
     c->count.entries++;
     atomic_fetch_add_explicit(&c->body_bytes, e->size, memory_order_relaxed);
+    settle(c);
+    e->stored = s->in != NULL;
+}
+
+void cache_count_prebuilt(cache *c, entry *e)
+{
+    struct cached *s = cached_of(e);
+    pthread_mutex_lock(&c->lock);
+    if (s->in) {
+        s->cost += CACHE_PREBUILT_OVERHEAD;
+        s->in->bytes += CACHE_PREBUILT_OVERHEAD;
+        c->count.bytes += CACHE_PREBUILT_OVERHEAD;
+        settle(c);
+    }
+    pthread_mutex_unlock(&c->lock);
 }
 
 entry *cache_find(cache *c, cache_level level, const cache_key *key)
@@ -228,6 +299,7 @@ cache_role cache_acquire(cache *c, const cache_key *key, waiter *w, entry **hit,
         c->count.joins++;
         turn = ROLE_FOLLOWER;
     } else if ((*lead = take_off(c, key))) {
+        note(c, key);
         wait_for(*lead, w);
         turn = ROLE_LEADER;
     } else {
@@ -316,15 +388,22 @@ bool cache_release(cache *c, waiter *w)
 
 /* ---- the whole ---- */
 
+/* Bytes of an entry, and counters of its use that go with each. */
+#define USUAL_COST         2048
+#define COUNTERS_EACH_LOG2 4
+
 cache *cache_new(size_t cap)
 {
     cache *c = calloc(1, sizeof *c);
     unsigned bits = 4;
     /* A bucket for every entry of a usual size, or so. */
-    while (bits < 24 && ((size_t)CACHE_ENTRY_OVERHEAD << bits) < cap)
+    while (bits < 24 && ((size_t)USUAL_COST << bits) < cap)
         bits++;
     slot **buckets = calloc((size_t)1 << bits, sizeof *buckets);
-    if (!c || !buckets || pthread_mutex_init(&c->lock, NULL) != 0) {
+    if (!c || !buckets || !frequency_init(&c->frequency, bits + COUNTERS_EACH_LOG2) ||
+        pthread_mutex_init(&c->lock, NULL) != 0) {
+        if (c)
+            frequency_free(&c->frequency);
         free(buckets);
         free(c);
         return NULL;
@@ -335,7 +414,10 @@ cache *cache_new(size_t cap)
     randombytes_buf(c->secret, sizeof c->secret);
     c->spread |= 1;
     c->count.cap = cap;
-    c->count.bytes = sizeof *c + (sizeof *buckets << bits);
+    c->count.bytes = sizeof *c + (sizeof *buckets << bits) + ((size_t)1 << (bits + COUNTERS_EACH_LOG2));
+    const size_t room = cap > c->count.bytes ? cap - c->count.bytes : 0;
+    c->window_cap = room / 8;
+    c->kept_cap = room - c->window_cap;
     return c;
 }
 
@@ -343,9 +425,12 @@ void cache_free(cache *c)
 {
     if (!c)
         return;
-    while (c->oldest)
-        evict(c, c->oldest);
+    while (c->window.oldest)
+        evict(c, c->window.oldest);
+    while (c->kept.oldest)
+        evict(c, c->kept.oldest);
     pthread_mutex_destroy(&c->lock);
+    frequency_free(&c->frequency);
     free(c->buckets);
     free(c);
 }

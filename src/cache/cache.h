@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Stored answers, least recently used first out, bounded in bytes; and single flight: of equal
- * requests under way at once, one is solved and all are told. All functions may be called from
- * any thread.
+ * Stored answers, bounded in bytes; and single flight: of equal requests under way at once, one
+ * is solved and all are told. All functions may be called from any thread.
+ *
+ * A new answer is kept in a window of an eighth of the bytes, the least recently used first out.
+ * Who leaves the window stays if there is room, or if it was asked for more often lately than the
+ * least recently used of the others, which then goes (W-TinyLFU: Einziger, Friedman and Manes
+ * 2017). So a batch that is larger than the cache drives nothing out that is asked for again and
+ * again, and a part of it is still there the next time.
  */
 #ifndef CACHE_CACHE_H
 #define CACHE_CACHE_H
@@ -11,8 +16,9 @@
 
 /* ---- the cache ---- */
 
-/* What an entry is counted as beside its body: its own struct, and what its prebuilt take. */
-#define CACHE_ENTRY_OVERHEAD 4352
+/* What an entry is counted as beside its body, and what each of its prebuilt. */
+#define CACHE_ENTRY_OVERHEAD    896
+#define CACHE_PREBUILT_OVERHEAD 1792
 
 typedef struct cache cache;
 
@@ -37,6 +43,9 @@ size_t cache_body_bytes(const cache *c);
 typedef enum cache_level { CACHE_CANONICAL, CACHE_RAW } cache_level;
 /* The stored answer of a key, referenced for the caller, or NULL. */
 entry *cache_find(cache *c, cache_level level, const cache_key *key);
+
+/* Counts one more prebuilt of `e`. */
+void cache_count_prebuilt(cache *c, entry *e);
 
 /* The raw key of a body that asks `owner` (whatever tells them apart: an endpoint; NULL: an
  * item of a batch): SipHash-2-4 under a secret of this cache, so that nobody can make two

@@ -3,9 +3,14 @@
 #ifndef CACHE_ENTRY_H
 #define CACHE_ENTRY_H
 
+#include <stdatomic.h>
+
 #include "cache/key.h"
 
 #define ENTRY_PREBUILT 2
+
+/* Ends a prebuilt. */
+typedef void entry_drop(void *prebuilt);
 
 /* An answer, or a refusal that several requests wait for: immutable and shared by reference. */
 typedef struct entry {
@@ -18,13 +23,13 @@ typedef struct entry {
     double cpu_us, estimate_us; /* of the endpoint: time of the processor, and its estimate */
     bool stored;                /* set by cache_complete, before anybody is woken */
     bool transient;             /* might come out otherwise another time: never stored */
-    bool given_up;   /* a refusal: nobody waited any more */
+    bool given_up;              /* a refusal: nobody waited any more */
     bool from_store;            /* from the shared store: solved elsewhere */
-    /* What http has made ready for sending the entry again: set before the entry is shared,
-     * dropped with the last reference. It may point into `body` as long as it holds the body
+    /* What http has made ready for sending the entry again, once it was asked for again: dropped
+     * with the last reference. It may point into `body` as long as it holds the body
      * (entry_hold_body). */
-    void *prebuilt[ENTRY_PREBUILT];
-    void (*prebuilt_drop)(void *face);
+    _Atomic(void *) prebuilt[ENTRY_PREBUILT];
+    _Atomic(entry_drop *) prebuilt_drop; /* of each; always the same */
 } entry;
 
 /* Bytes of all bodies that exist. */

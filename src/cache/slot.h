@@ -28,6 +28,7 @@ struct cached {
     slot canonical, raw[RAW_SLOTS]; /* the cache's, under its lock, as is all that follows */
     unsigned raw_next;
     struct cached *newer, *older;
+    struct order *in; /* NULL: not stored */
     size_t cost;
 };
 

@@ -64,6 +64,9 @@ typedef struct endpoint {
     /* Estimated work in microseconds: decides between answering at once and handing to the
      * thread_pool. */
     double (*cost_us)(const void *request);
+    /* May be NULL: estimated memory (bytes) that a solve holds beside its answer; else it follows
+     * from `cost_us`, for pencils of matrices that are filled as they are computed. */
+    double (*solve_bytes)(const void *request);
     /* May be NULL: a careful estimate, never above its size, of the part of the answer that grows
      * with the request (bytes), and the field that decides it. */
     double (*answer_bytes)(const void *request, const char **pointer);
@@ -102,6 +105,8 @@ const char *evaluation_numerics(void);
 void evaluation_canonical(const evaluation *a, strbuf *out);
 /* The endpoint's estimate, made once when the request was complete. */
 double evaluation_cost_us(const evaluation *a);
+/* Estimated memory that the solve and its answer hold meanwhile; at most the limit set for one. */
+size_t evaluation_solve_bytes(const evaluation *a);
 /* Writes {"request", "result", "warnings", "meta": {"key", "solver", "solver_number",
  * "numerics", "theory"}}. False with `p` filled when there is no answer. `w` may be NULL. */
 bool evaluation_answer(const evaluation *a, const char *key, observer *w, strbuf *out,

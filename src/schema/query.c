@@ -23,15 +23,50 @@ static cJSON *text_value(const char *value, size_t size)
     return item;
 }
 
-/* A number by JSON's grammar: no leading +, no spaces. */
+static const char *after_digits(const char *at, const char *end)
+{
+    while (at < end && *at >= '0' && *at <= '9')
+        at++;
+    return at;
+}
+
+/* A + that was not escaped arrives as a space. */
+static const char *after_sign(const char *at, const char *end)
+{
+    return at < end && (*at == '-' || *at == '+' || *at == ' ') ? at + 1 : at;
+}
+
+/* Where a number ends as programs write it: as JSON does, and +3e6, .5, 5. and 007; NULL: there
+ * is none. */
+static const char *number_end(const char *at, const char *end)
+{
+    const char *const integer = after_sign(at, end);
+    at = after_digits(integer, end);
+    bool digits = at > integer;
+    if (at < end && *at == '.') {
+        const char *const fraction = at + 1;
+        at = after_digits(fraction, end);
+        digits |= at > fraction;
+    }
+    if (!digits || at == end || (*at != 'e' && *at != 'E'))
+        return digits ? at : NULL;
+    const char *const exponent = after_sign(at + 1, end);
+    at = after_digits(exponent, end);
+    return at > exponent ? at : NULL;
+}
+
 static cJSON *number_value(const char *value, size_t size)
 {
-    char copy[JSON_NUMBER_CHARACTERS + 1];
-    if (size >= sizeof copy || json_number_end(value, value + size) != value + size)
+    if (number_end(value, value + size) != value + size)
         return text_value(value, size);
-    memcpy(copy, value, size);
-    copy[size] = '\0';
-    return cJSON_CreateNumber(strtod(copy, NULL));
+    char *copy = strndup(value, size);
+    if (copy == NULL)
+        return NULL;
+    for (char *c = copy; *c != '\0'; c++)
+        *c = *c == ' ' ? '+' : *c;
+    cJSON *item = cJSON_CreateNumber(strtod(copy, NULL));
+    free(copy);
+    return item;
 }
 
 static cJSON *list_value(const char *value, bool numbers)
@@ -72,6 +107,29 @@ static cJSON *field_value(const field *f, const char *value)
     return text_value(value, strlen(value));
 }
 
+static bool is_list(field_kind kind)
+{
+    return kind == FIELD_NUMBERS || kind == FIELD_COMPLEXES;
+}
+
+/* Adds the field to the object; a list that is named again goes on. Takes over `item`. */
+static bool add_field(cJSON *object, const char *name, cJSON *item)
+{
+    cJSON *before = cJSON_GetObjectItemCaseSensitive(object, name);
+    if (item == NULL)
+        return false;
+    if (!cJSON_IsArray(before) || !cJSON_IsArray(item)) {
+        const bool added = cJSON_AddItemToObject(object, name, item);
+        if (!added)
+            cJSON_Delete(item);
+        return added;
+    }
+    while (item->child != NULL)
+        cJSON_AddItemToArray(before, cJSON_DetachItemViaPointer(item, item->child));
+    cJSON_Delete(item);
+    return true;
+}
+
 /* True when the pair may stand in a query string. */
 static bool pair_allowed(const schema *s, const query_pair *pair, field_set *seen, problem *p)
 {
@@ -80,7 +138,7 @@ static bool pair_allowed(const schema *s, const query_pair *pair, field_set *see
         return true; /* the reader names it, with what is near */
     const json_place place = {.name = pair->name};
     const field_kind kind = s->fields[row].kind;
-    if (*seen & row_bit(row)) {
+    if (*seen & row_bit(row) && !is_list(kind)) {
         json_fault(p, &place, "given more than once");
         return false;
     }
@@ -105,9 +163,7 @@ void *schema_read_query(const schema *s, const query_pair *pairs, size_t count,
         const int row = schema_row(s, pairs[i].name, 0);
         cJSON *item =
             row >= 0 ? field_value(&s->fields[row], pairs[i].value) : cJSON_CreateNull();
-        good = item != NULL && cJSON_AddItemToObject(object, pairs[i].name, item);
-        if (!good)
-            cJSON_Delete(item);
+        good = add_field(object, pairs[i].name, item);
     }
     if (!good)
         problem_out_of_memory(p);

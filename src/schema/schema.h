@@ -172,7 +172,7 @@ void *schema_read(const schema *s, const cJSON *object, bool variables, schema_a
                   problem *p);
 
 /* The same from a query string's pairs (values percent-decoded). Lists are comma-separated
- * numbers. */
+ * numbers, or several pairs of one name. */
 typedef struct query_pair {
     const char *name, *value;
 } query_pair;

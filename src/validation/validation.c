@@ -21,12 +21,12 @@ typedef struct request {
     bool values;
 } request;
 
-static const char *const reports[] = {"all",      "gale",        "grinfogel",
-                                      "levesque", "sergev_iwan", NULL};
+static const char *const reports[] = {"all",         "gale",    "grinfogel", "levesque",
+                                      "sergev_iwan", "general", NULL};
 
 static const field fields[] = {
     {FIELD_AT(FIELD_CHOICE, request, report), .choices = reports, .flags = FIELD_DEFAULT,
-     .help = "cases of one report's theory only"},
+     .help = "cases of one report's theory only; general: of the cable as it hangs"},
     {FIELD_AT(FIELD_NAME, request, family),
      .help = "families whose name begins so, with _ for what is no letter or digit: "
              "gale_table_B_3"},

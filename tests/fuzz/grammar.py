@@ -12,7 +12,8 @@ import re
 
 # How often an endpoint is asked. The search for an absorber is the costly one; cases are known and few.
 WEIGHTS = {"/v1/catenary/frequencies": 28, "/v1/forced/tension": 14, "/v1/inclined/modes": 24, "/v1/taut/modes": 22,
-           "/v1/taut/matrix": 11, "/v1/absorber/optimize": .6, "/v1/identify/tension": 10, "/v1/validation": .1}
+           "/v1/cable/statics": 10, "/v1/cable/modes": 16, "/v1/taut/matrix": 11, "/v1/absorber/optimize": .6,
+           "/v1/identify/tension": 10, "/v1/validation": .1}
 EXTREMES = [0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1e-308, 1e-300, 1e-160, 1e-16, 1 - 2 ** -53, 1.0, 1 + 2 ** -52,
             2.0 ** 31, 2.0 ** 53, 1e16, 1e155, 1e300, 1e308, 1.7976931348623157e308]
 TEXTS = ["", "NaN", "Infinity", "infinite", "1", "é", "\u0000", "a" * 100]
@@ -22,7 +23,17 @@ MARK = "\u241f"
 # endpoints' costs grow with these: small as a rule, so that 20,000 requests take a minute or two
 SIZES = {"modes": 8, "points": 12, "shape_points": 12, "profile_points": 12, "first_mode": 30, "multiple": 4,
          "max_evaluations": 20}
-LISTS = {"components": 3, "frequency_ratios": 5, "angular_frequencies": 4, "variables": 1}
+LISTS = {"components": 3, "sections": 1.5, "attachments": 2, "layers": .5, "frequency_ratios": 5, "angular_frequencies": 4, "variables": 1}
+
+
+# a section's fields at the top of a request, and what is given of a cable as it hangs
+FLAT = ("length_m", "mass_kg_per_m", "weight_N_per_m", "added_mass_kg_per_m", "added_mass_tangential_kg_per_m",
+        "axial_stiffness_N", "bending_stiffness_N_m2", "axial_loss_factor", "bending_loss_factor",
+        "drag_normal_N_s_per_m2", "drag_tangential_N_s_per_m2", "bed_friction", "diameter_m",
+        "material_density_kg_per_m3", "youngs_modulus_Pa", "added_mass_coefficient", "added_mass_coefficient_axial",
+        "layers", "chain")
+GIVEN = ("horizontal_tension_N", "tension_end_1_N", "tension_end_2_N", "tension_parallel_to_chord_N",
+         "catenary_parameter_m", "sag_mid_m", "sag_max_m", "depth_below_end_1_m", "angle_end_1_deg", "angle_end_2_deg")
 
 
 def digits(value, count):
@@ -56,6 +67,8 @@ class Draw:
             parts = schema["oneOf"]
             if name == "item of components":
                 return self.object(self.rng.choice(parts[:1] * 8 + parts))
+            if name == "item of attachments":
+                return self.object(self.rng.choice(parts))
             part = parts[0] if name != "angular_frequencies" and not self.chance(.1) else self.rng.choice(parts)
             return self.any({"x-unit": schema.get("x-unit"), "examples": schema.get("examples", []), **self.resolve(part)}, name)
         if "allOf" in schema and "properties" not in schema:
@@ -126,7 +139,7 @@ class Draw:
         items = {**self.resolve(schema["items"]), "x-unit": schema.get("x-unit")}
         if "type" in items and items["type"] == "number":
             items.setdefault("examples", schema.get("examples", []))
-        values = [self.any(items, f"item of {name}" if name == "components" else name) for _ in range(count)]
+        values = [self.any(items, f"item of {name}" if name in ("components", "attachments") else name) for _ in range(count)]
         if schema.get("x-ascending") and not self.chance(.05):
             values = sorted(set(values))
             while len(values) < low:
@@ -160,6 +173,9 @@ class Tidy:
     def apply(self, path, request):
         if self.rng.random() < .12:
             return
+        if path.startswith("/v1/cable/"):
+            self.hanging(request)
+            return
         self.company(request)
         if "span_m" in request:
             self.length(request)
@@ -184,6 +200,62 @@ class Tidy:
             request["inextensible"] = True
         if len(request.get("band_rad_per_s", ())) == 2:  # few modes as a rule
             request["band_rad_per_s"][1] = min(1e9, request["band_rad_per_s"][0] * (1 + 10 ** self.rng.uniform(-3, 0)))
+
+    def hanging(self, request):
+        """A cable as it hangs: one length open where a tension, sag or angle is given, places on the cable."""
+        sections = request.get("sections")
+        if sections:
+            for name in FLAT:
+                request.pop(name, None)
+        sections = sections or [request]
+        for section in sections:
+            if "diameter_m" not in section and "chain" not in section:
+                for name in ("youngs_modulus_Pa", "layers", "added_mass_coefficient", "added_mass_coefficient_axial"):
+                    section.pop(name, None)
+            if "chain" in section:
+                section.pop("youngs_modulus_Pa", None)
+            if "bed" not in request:
+                section.pop("bed_friction", None)
+        self.found(request, sections)
+        if request.get("spans", 1) > 1:
+            request.setdefault("hanger", {"length_m": 2})
+            request.pop("rise_m", None)
+            request.pop("bed", None)
+        else:
+            request.pop("hanger", None)
+        for end in ("end_1", "end_2"):
+            if {"angle_deg"} == set(request.get(end, {})) & {"angle_deg", "rotational_stiffness_N_m_per_rad"}:
+                request[end]["rotation"] = "clamped"
+        if request.get("temperature_change_K"):
+            request.setdefault("expansion_per_K", 1e-5)
+        length = sum(section.get("length_m", 0) for section in sections) or request.get("span_m", 100)
+        for part in request.get("attachments", ()):
+            if part["position_m"] >= length:
+                part["position_m"] = length * self.rng.uniform(.01, .99)
+            if "repeat" in part:
+                part["repeat"]["count"] = min(part["repeat"]["count"], 5)
+                part["repeat"]["spacing_m"] = (length - part["position_m"]) / 10 or .1
+
+    def found(self, request, sections):
+        """What is given beside lengths and span, and what is found."""
+        given = [name for name in GIVEN if name in request]
+        if given and "span_m" not in request and given[0] not in GIVEN[:3]:
+            request["span_m"] = 100
+        for section in sections:
+            section.setdefault("length_m", 50)
+        request.pop("adjust_section", None)
+        if "span_m" not in request and not given:
+            request["span_m"] = 100
+        if "span_m" in request:
+            if given:
+                self.rng.choice(sections).pop("length_m")
+            else:
+                chord = math.hypot(request["span_m"], request.get("rise_m", 0))
+                total = sum(section["length_m"] for section in sections)
+                if not chord < total < 3 * chord and self.rng.random() < .9:
+                    factor = chord * (1 + 10 ** self.rng.uniform(-5, 0)) / total
+                    for section in sections:
+                        section["length_m"] = min(1e7, section["length_m"] * factor) or 1.0
 
     def length(self, request):
         span, rise = request["span_m"], request.get("rise_m", 0)

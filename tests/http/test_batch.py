@@ -52,6 +52,25 @@ def open_batch(strumd, items):
     return connection
 
 
+def read_slowly(strumd, items, pieces):
+    """Takes 4 KiB twenty times a second, so many times, of a batch; whether the daemon still sends after that."""
+    with open_batch(strumd, items) as connection:
+        for number in range(pieces):
+            connection.recv(4096)
+            time.sleep(0.05)
+            if number % 10 == 0 and strumd.metric("requests_busy") == 1:  # who asks for the metrics
+                return False
+        return True
+
+
+def test_who_reads_a_batch_too_slowly_is_cut(start_strumd):
+    """Each piece is taken in time; by the rate of all together the client may be too slow."""
+    items = [item({**CHEAP, "modes": 40, "shape_points": 100, "sag_parameter": 0.5 + 0.001 * n}) for n in range(100)]  # 50 MB
+    flags = ("--request-timeout-s", "2", "--batch-body-bytes", "1M")
+    assert read_slowly(start_strumd(*flags, "--stream-bytes-per-s", "0"), items, 160)
+    assert not read_slowly(start_strumd(*flags, "--stream-bytes-per-s", "100M"), items, 1200)
+
+
 @pytest.mark.parametrize("lines", [False, True], ids=["array", "lines"])
 @pytest.mark.parametrize("flags", [(), ("--workers", "1"), ("--workers", "3", "--event-threads", "2")])
 def test_answers_are_those_of_single_requests_in_order(start_strumd, lines, flags):

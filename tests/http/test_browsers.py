@@ -33,6 +33,27 @@ def test_other_names_are_refused_on_loopback(strumd, host):
     assert ask(strumd, host, path=b"/livez")[0] == 200  # probes by any name
 
 
+def test_a_url_as_the_target_is_where_it_says(strumd):
+    """What Host says then does not count (RFC 9112 3.2.2): neither to let in nor to keep out."""
+    query = PATH.encode() + b"?sag_parameter=0.9"
+    for scheme in (b"http", b"https"):
+        for host in OURS:
+            status, _, body = ask(strumd, "evil.example", path=scheme + b"://" + host.encode() + query)
+            assert status == 200 and body == ask(strumd, "localhost", path=query)[2]
+        for host in set(OTHERS) - {"localhost:8080@evil.example"}:
+            assert ask(strumd, "localhost", path=scheme + b"://" + host.encode() + query)[0] == 403, host
+    assert ask(strumd, "localhost", path=b"http://localhost:8080@evil.example" + query)[0] == 400
+    own = b"Origin: http://evil.example\r\n"
+    assert ask(strumd, "evil.example", path=b"http://localhost" + query, extra=own)[0] == 403
+
+
+def test_a_url_as_the_target_and_the_names_allowed(start_strumd):
+    strumd = start_strumd("--allowed-hosts", "cables.example")
+    for host, status in ((b"cables.example", 200), (b"cables.example:443", 200), (b"evil.example", 403)):
+        assert ask(strumd, "cables.example", path=b"http://" + host + PATH.encode() + b"?sag_parameter=0.9")[0] == status
+        assert ask(strumd, "cables.example", b"OPTIONS", path=b"http://" + host)[0] == (204 if status == 200 else 403)
+
+
 def test_names_that_are_allowed(start_strumd):
     strumd = start_strumd("--allowed-hosts", "cables.example, other.example")
     for host, status in (("cables.example", 200), ("Cables.Example:443", 200), ("other.example:1", 200), ("localhost", 200),

@@ -71,11 +71,20 @@ def test_without_progress_there_is_the_result(start_strumd, body):
     assert event == "result" and data == strumd.post(body).text
 
 
-def test_only_post_streams(strumd):
-    for method in ("QUERY", "GET"):
-        arguments = {"json": CHEAP} if method == "QUERY" else {"params": CHEAP}
-        answer = strumd.request(method, headers=EVENTS, **arguments)
-        assert answer.headers["Content-Type"] == "application/json" and answer.status_code == 200
+def test_query_streams_too(start_strumd):
+    strumd = start_strumd()
+    *told, (event, data) = events(strumd.request("QUERY", FORCED, json=BRIEF, headers=EVENTS))
+    assert told and event == "result" and data == strumd.post(BRIEF, FORCED).text
+    assert events(strumd.request("QUERY", FORCED, json=BRIEF, headers=EVENTS)) == [("result", data)]
+    # its ETag is that of the answer, which a stream is not: it is sent whole
+    known = {"If-None-Match": strumd.post(BRIEF, FORCED).headers["ETag"]}
+    assert events(strumd.request("QUERY", FORCED, json=BRIEF, headers=EVENTS | known)) == [("result", data)]
+    assert strumd.request("QUERY", FORCED, json=BRIEF, headers=known).status_code == 304
+
+
+def test_get_does_not_stream(strumd):
+    answer = strumd.request("GET", headers=EVENTS, params=CHEAP)
+    assert answer.headers["Content-Type"] == "application/json" and answer.status_code == 200
 
 
 def test_refusals_before_the_stream_keep_their_status(start_strumd):

@@ -163,6 +163,18 @@ def test_answers_that_nobody_reads_hold_solves_up(start_strumd):
     wait_metric(strumd, "memory_bytes", 0)
 
 
+def test_no_solve_takes_the_memory_of_others(start_strumd):
+    """A question of minutes is estimated at more than there is, or at little: neither keeps others out."""
+    strumd = start_strumd("--memory-bytes", "64M", "--workers", "2")
+    large = {"chi_1": -12.5, "chi_2": 12.5, "modes": 200, "verify": True}
+    with busy(strumd, 1):
+        held, = ask(strumd, [large])
+        wait_metric(strumd, "flights", 2)
+        for n in range(20):
+            assert strumd.post({**CHEAP, "sag_parameter": 0.5 + 0.01 * n}).status_code == 200
+        held.close()
+
+
 def test_a_body_without_memory_is_refused(start_strumd):
     strumd = start_strumd("--memory-bytes", "20000")
     refused = strumd.request("POST", "/v1/batch", data=b"[" + b" " * 30000 + b"]", headers={"Content-Type": "application/json"})

@@ -13,9 +13,12 @@ import yaml
 from jsonschema import Draft202012Validator, RefResolver
 
 from conftest import PROGRAM, ROOT
+from published import publish
 
 BUILD = pathlib.Path(PROGRAM).resolve().parents[1]
-CONTRACT = yaml.safe_load((ROOT / "api/openapi.yaml").read_text(encoding="utf-8"))
+SOURCE = yaml.safe_load((ROOT / "api/openapi.yaml").read_text(encoding="utf-8"))
+# What clients read: answers are held against it.
+CONTRACT = publish(SOURCE, "3.1")
 EXAMPLES = sorted((ROOT / "api/examples").glob("*.json"))
 CASE_FILES = sorted((ROOT / "tests/cases").glob("*.json"))
 JSON = {"Content-Type": "application/json"}
@@ -40,9 +43,9 @@ def script(path):
 CASES = script(ROOT / "tests/cases/run")
 
 
-def resolve(node):
+def resolve(node, contract=CONTRACT):
     while "$ref" in node:
-        node = RefResolver("", CONTRACT).resolve(node["$ref"])[1]
+        node = RefResolver("", contract).resolve(node["$ref"])[1]
     return node
 
 
@@ -91,6 +94,20 @@ def test_request_schemas_follow_the_tables():
     assert done.returncode == 0, done.stderr
 
 
+def keep_the_parameters(parameters, request):
+    """A query parameter for every field of the table that is no object and no list of them, with its type and range."""
+    said = {one["name"]: one for one in map(resolve, parameters) if one["in"] == "query"}
+    kinds = {name: json.dumps(field) for name, field in request["properties"].items()}
+    assert set(said) == {name for name, kind in kinds.items() if '"properties"' not in kind}
+    for name, one in said.items():
+        field = request["properties"][name]
+        for key in ("type", "minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum", "enum", "default", "items", "oneOf"):
+            assert one["schema"].get(key) == field.get(key), (name, key)
+        assert one.get("required", False) == (name in request.get("required", []))
+        assert one.get("explode", True) == (field.get("type") != "array")
+        assert not faults(one["schema"], one["example"]), name
+
+
 def test_every_endpoint_is_in_the_contract():
     tables = json.loads(subprocess.run([BUILD / "api/schemas"], check=True, capture_output=True).stdout)
     assert tables
@@ -100,8 +117,7 @@ def test_every_endpoint_is_in_the_contract():
         assert operation("x-query", path)["requestBody"] == operation("post", path)["requestBody"]
         assert ("get" in CONTRACT["paths"][path]) == table["query"]
         if table["query"]:
-            fields = operation("get", path)["parameters"][0]
-            assert fields["schema"] == body and fields["in"] == "query" and fields["explode"]
+            keep_the_parameters(operation("get", path)["parameters"], table["request"])
         examples = [load(example) for example in EXAMPLES]
         assert path in [example["endpoint"] for example in examples], f"no example of {path}"
 
@@ -120,22 +136,67 @@ def nulls(node, path=""):
         yield from [f"{path}/{name}"] if inner is None else nulls(inner, f"{path}/{name}")
 
 
-def test_the_contract_is_whole():
-    assert CONTRACT["openapi"] == "3.1.0"
-    # an unquoted comma in a flow mapping makes a member without a value
-    assert not list(nulls(CONTRACT))
-    for place, reference in every(CONTRACT, "$ref"):
+def test_the_source_has_no_member_without_a_value():
+    """An unquoted comma in a flow mapping makes one."""
+    assert not list(nulls(SOURCE))
+
+
+@pytest.mark.parametrize("version", ["3.1", "3.2"])
+def test_the_contract_is_whole(version):
+    contract = publish(SOURCE, version)
+    assert contract["openapi"] == f"{version}.0"
+    for place, reference in every(contract, "$ref"):
         assert reference.startswith("#/"), place
-        resolve({"$ref": reference})
-    for name, schema in CONTRACT["components"]["schemas"].items():
+        resolve({"$ref": reference}, contract)
+    for name, schema in contract["components"]["schemas"].items():
         Draft202012Validator.check_schema(schema)
-        assert schema.get("type") or schema.get("oneOf"), name
-    names = [name for _, name in every(CONTRACT["paths"], "operationId")]
+        assert schema.get("type") or schema.get("oneOf") or schema.get("anyOf"), name
+    names = [name for _, name in every(contract["paths"], "operationId")]
     assert len(names) == len(set(names))
-    used = {reference for _, reference in every(CONTRACT, "$ref")}
+    used = {reference for _, reference in every(contract, "$ref")}
     for kind in ("parameters", "headers", "responses", "schemas", "examples"):
-        for name in CONTRACT["components"][kind]:
+        for name in contract["components"][kind]:
             assert f"#/components/{kind}/{name}" in used, f"{kind}/{name} is not used"
+
+
+@pytest.mark.parametrize("version", ["3.1", "3.2"])
+def test_no_object_is_any_object(version):
+    """Generators type {type: object} as an object without members."""
+    def objects(node, place):
+        items = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
+        if isinstance(node, dict) and node.get("type") == "object":
+            yield place, node
+        for name, inner in items:
+            if name not in ("examples", "example"):
+                yield from objects(inner, f"{place}/{name}")
+    found = list(objects(publish(SOURCE, version), ""))
+    assert len(found) > 100
+    for place, node in found:
+        assert set(node) & {"properties", "additionalProperties", "allOf"}, place
+
+
+def test_the_query_operation_of_3_2():
+    newer = publish(SOURCE, "3.2")
+    for path, item in CONTRACT["paths"].items():
+        assert ("query" in newer["paths"][path]) == ("x-query" in item) and "x-query" not in newer["paths"][path]
+        if "x-query" in item:
+            query = newer["paths"][path]["query"]
+            assert {**query, "responses": None} == {**item["x-query"], "responses": None}
+            assert "itemSchema" in query["responses"]["200"]["content"]["text/event-stream"]
+            for method in ("post", "x-query"):
+                assert "text/event-stream" in item[method]["responses"]["200"]["content"]
+
+
+def test_published_schemas_hold_what_the_source_holds(strumd):
+    """Alternatives were given types: they must not have come to mean something else."""
+    for name, schema in REQUESTS.items():
+        judges = [Draft202012Validator({"$ref": f"#/components/schemas/{name}"}, resolver=RefResolver("", document))
+                  for document in (SOURCE, CONTRACT)]
+        examples = [load(path)["request"] for path in EXAMPLES if load(path)["endpoint"].removeprefix("/v1/").replace("/", "_") in name]
+        singles = [{field: said["examples"][0]} for field, said in schema["properties"].items()]
+        pairs = [{**one, **other} for one in singles for other in singles]
+        for request in examples + singles + pairs + [{**e, **one} for e in examples for one in singles]:
+            assert judges[0].is_valid(request) == judges[1].is_valid(request), (name, request)
 
 
 def fields_of(schema, place=""):
@@ -148,7 +209,7 @@ def fields_of(schema, place=""):
             yield from fields_of(field, f"{place}/{name}")
 
 
-REQUESTS = {name: schema for name, schema in CONTRACT["components"]["schemas"].items() if name.endswith("_request")}
+REQUESTS = {name: schema for name, schema in SOURCE["components"]["schemas"].items() if name.endswith("_request")}
 # what these stand for says which unit and range they have
 ANY_NUMBER = ("variable", "scale", "offset", "re", "im", "min", "max")
 
@@ -320,6 +381,19 @@ def test_refusals_keep_the_contract(strumd, body, status):
     assert problem["status"] == status and problem["title"] and problem["detail"]
 
 
+def test_a_list_may_be_one_parameter_or_several(strumd):
+    expected = strumd.post({"sag_parameter": 0.9, "frequency_ratios": [0.5, 1, 2]}, FORCED)
+    assert expected.status_code == 200
+    for words in ("frequency_ratios=0.5,1,2", "frequency_ratios=0.5&frequency_ratios=1&frequency_ratios=2",
+                  "frequency_ratios=0.5%2C1&frequency_ratios=2"):
+        assert strumd.get(f"{FORCED}?sag_parameter=0.9&{words}").content == expected.content
+    many = "&".join(f"frequency_ratios={n}" for n in range(65))
+    refused = strumd.get(f"{FORCED}?sag_parameter=0.9&{many}")
+    assert refused.status_code == 400 and "separated by commas" in refused.json()["detail"]
+    twice = strumd.get(f"{FORCED}?sag_parameter=0.9&sag_parameter=0.8&frequency_ratios=1").json()
+    assert twice["errors"] == [{"pointer": "/sag_parameter", "detail": "given more than once"}]
+
+
 def test_other_refusals_keep_the_contract(strumd):
     path = "/v1/catenary/frequencies"
     check("post", path, strumd.request("POST", path, data=b"x", headers={"Content-Type": "text/plain"}))
@@ -331,7 +405,7 @@ def test_other_refusals_keep_the_contract(strumd):
     check("get", "/version", strumd.request("DELETE", "/version"))
 
 
-@pytest.mark.parametrize("path", ["/livez", "/readyz", "/version", "/metrics", "/", "/docs", "/openapi.json"])
+@pytest.mark.parametrize("path", ["/livez", "/readyz", "/version", "/metrics", "/", "/docs", "/openapi.json", "/openapi-3.2.json"])
 def test_pages_keep_the_contract(strumd, path):
     response = strumd.get(path)
     assert response.status_code == 200

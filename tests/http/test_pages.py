@@ -4,20 +4,22 @@ import gzip
 import hashlib
 import html
 import json
-import pathlib
 import re
 import subprocess
 
 import pytest
 import yaml
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT
+from published import publish
+
 CONTRACT = yaml.safe_load((ROOT / "api/openapi.yaml").read_text(encoding="utf-8"))
 OWN = sorted(path for path in (ROOT / "src/dashboard").iterdir() if path.suffix in (".js", ".css", ".svg"))
 
 
-def test_the_contract_is_served_as_it_stands(strumd):
-    assert strumd.get("/openapi.json").json() == json.loads(json.dumps(CONTRACT))
+@pytest.mark.parametrize("path, version", [("/openapi.json", "3.1"), ("/openapi-3.2.json", "3.2")])
+def test_the_contract_is_served_as_published(strumd, path, version):
+    assert strumd.get(path).json() == publish(CONTRACT, version)
 
 
 @pytest.mark.parametrize("path", OWN, ids=lambda path: path.name)

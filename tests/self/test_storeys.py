@@ -22,6 +22,7 @@ BELOW = {
     "core/suspended": ["core/numerics"],
     "core/inclined": ["core/numerics", "core/suspended"],
     "core/taut": ["core/numerics"],
+    "core/cable": ["core/numerics"],
     "core/absorber": ["core/numerics", "core/taut"],
     "core/identify": ["core/numerics", "core/taut"],
     "json": [],

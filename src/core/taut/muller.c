@@ -5,9 +5,10 @@
  * found before. Nothing ties a root to the guess it was started from: it may belong to another
  * mode, and some may never be found. Offered to show that, beside the certified search.
  */
-#include "core/taut/taut.h"
-
 #include <float.h>
+#include <stdlib.h>
+
+#include "core/taut/solve.h"
 
 typedef struct sample {
     cplx s, f;
@@ -58,4 +59,48 @@ bool taut_muller(taut_search *search, cplx guess, const cplx *found, size_t coun
         return false;
     *root = cimag(polished) < 0.0 ? conj(polished) : polished;
     return true;
+}
+
+strum_status taut_solve_muller(taut_solve *s)
+{
+    strum_taut_roots *out = s->out;
+    s->search.spacing = taut_spacing(s->search.chain);
+    strum_taut_root *certain = out->roots;
+    const size_t count = out->count;
+    cplx *found = malloc((count + 1) * sizeof *found);
+    if (found == NULL)
+        return taut_solve_no_memory(s);
+    out->roots = NULL;
+    out->count = 0;
+    size_t known = 0;
+    strum_status status = STRUM_OK;
+    for (size_t i = 0; i < count && status == STRUM_OK; i++) {
+        double w = certain[i].frequency;
+        cplx root;
+        if (certain[i].mode > 0)
+            status = taut_frequencies(s->search.chain, &certain[i].mode, 1, &s->search.work, &w,
+                                      s->fault);
+        if (status != STRUM_OK ||
+            !taut_muller(&s->search, CMPLX(0.0, w), found, known, &root) ||
+            taut_known(found, known, root, TAUT_SAME * taut_solve_scale(s, root)))
+            continue;
+        found[known++] = root;
+        const cplx wanted = CMPLX(-certain[i].decay, certain[i].frequency);
+        out->hopped += cabs(root - wanted) > TAUT_SAME * taut_solve_scale(s, wanted);
+        status = taut_roots_add(
+            s->out,
+            (strum_taut_root){certain[i].mode, cimag(root), fmax(-creal(root), 0.0), INFINITY},
+            false, s->fault);
+    }
+    for (size_t i = 0; i < count; i++) {
+        const cplx wanted = CMPLX(-certain[i].decay, certain[i].frequency);
+        out->missed +=
+            !taut_known(found, known, wanted, TAUT_SAME * taut_solve_scale(s, wanted));
+    }
+    out->found = out->expected - out->missed;
+    free(found);
+    free(certain);
+    if (status == STRUM_OK && s->search.status != STRUM_OK)
+        status = taut_solve_stopped(s);
+    return status;
 }

@@ -80,6 +80,8 @@ typedef struct taut_search {
 
 /* F and dF/ds at full damping. */
 taut_value taut_search_value(taut_search *search, cplx s);
+/* F and dF/ds where all damping is multiplied by a factor. */
+taut_value taut_search_at(taut_search *search, cplx s, double factor);
 /* Newton's method at full damping from `s`; true when it converged. A real start stays real. */
 bool taut_newton(taut_search *search, cplx *s);
 
@@ -98,6 +100,7 @@ typedef struct taut_branch {
     double factor;
     taut_branch_state state;
     cplx s[2];
+    bool meets; /* where it was lost another root was near */
 } taut_branch;
 
 /* From mode `mode` with undamped frequency w whose neighbours lie `gap` away. */
@@ -106,6 +109,9 @@ void taut_branch_start(taut_branch *branch, long mode, double w);
  */
 void taut_branch_follow(taut_search *search, taut_branch *branch, double gap, double factor,
                         double reach);
+
+/* What rounding does to F at a point, as a share of it (1 and more: nothing is left). */
+double taut_noise(taut_search *search, cplx s, double factor);
 
 /* Zeros in [re_lo, re_hi] x [im_lo, im_hi] of the s plane; -1 when a zero lies on the boundary.
  * im_lo < 0 = -im_hi: symmetric, only the upper half is walked. */
@@ -121,6 +127,26 @@ void taut_find_missing(taut_search *search, const taut_rectangle *box, long expe
 bool taut_inside(const taut_rectangle *box, cplx s);
 /* Does the list hold s (to the digits that a root has)? */
 bool taut_known(const cplx *roots, size_t count, cplx s, double tolerance);
+
+/* ---- clusters ---- */
+
+#define TAUT_CLUSTER_MAX 8
+
+/* A circle, the number of roots in it and their power sums about its centre, in radii. */
+typedef struct taut_ring {
+    cplx centre;
+    double radius;
+    int count;
+    cplx power[TAUT_CLUSTER_MAX + 1];
+} taut_ring;
+
+/* False where a root lies too near the circle, or more than TAUT_CLUSTER_MAX within it. */
+bool taut_ring_make(taut_search *search, cplx centre, double radius, double factor,
+                    taut_ring *ring);
+/* Its roots (`count` of them), by frequency, then decay. */
+void taut_ring_roots(taut_search *search, const taut_ring *ring, double factor, cplx *roots);
+/* The smallest distance of two of them. */
+double taut_ring_apart(const taut_ring *ring, const cplx *roots);
 
 /* Muller's method from guess i w_k, deflated by what it found; see taut_muller.c. */
 bool taut_muller(taut_search *search, cplx guess, const cplx *found, size_t count, cplx *root);

@@ -155,6 +155,35 @@ static bool try_start(taut_search *search, const taut_rectangle *box, cplx s, cp
     return true;
 }
 
+/* Roots of a small box by a circle about it: also those too near each other for Newton's method.
+ * Those known already are told by being next to one of the circle's, each to one of them. */
+static void find_by_ring(taut_search *search, const taut_rectangle *box, cplx *roots,
+                         size_t *known, size_t room)
+{
+    const double width = box->re_hi - box->re_lo, height = box->im_hi - box->im_lo;
+    const cplx centre = CMPLX(0.5 * (box->re_lo + box->re_hi), 0.5 * (box->im_lo + box->im_hi));
+    cplx found[TAUT_CLUSTER_MAX];
+    bool taken[TAUT_CLUSTER_MAX] = {false};
+    taut_ring ring;
+    if (!taut_ring_make(search, centre, 0.8 * fmax(width, height), 1.0, &ring))
+        return;
+    taut_ring_roots(search, &ring, 1.0, found);
+    for (size_t i = 0; i < *known; i++)
+        for (int both = 0; both < (cimag(roots[i]) != 0.0 ? 2 : 1); both++) {
+            const cplx s = both != 0 ? conj(roots[i]) : roots[i];
+            int next = -1;
+            for (int k = 0; k < ring.count; k++)
+                if (!taken[k] && cabs(found[k] - s) < 1e-6 * (cabs(s) + search->spacing) &&
+                    (next < 0 || cabs(found[k] - s) < cabs(found[next] - s)))
+                    next = k;
+            if (next >= 0)
+                taken[next] = true;
+        }
+    for (int k = 0; k < ring.count && *known < room; k++)
+        if (!taken[k] && cimag(found[k]) >= 0.0 && taut_inside(box, found[k]))
+            roots[(*known)++] = found[k];
+}
+
 static void find(taut_search *search, const taut_rectangle *box, long expected, cplx *roots,
                  size_t *known, size_t room, int depth)
 {
@@ -173,8 +202,11 @@ static void find(taut_search *search, const taut_rectangle *box, long expected, 
         if (search->status != STRUM_OK)
             return;
     }
+    if (count_known(box, roots, *known) < expected && expected <= TAUT_CLUSTER_MAX &&
+        fmax(width, height) < 0.6 * search->spacing)
+        find_by_ring(search, box, roots, known, room);
     if (count_known(box, roots, *known) >= expected || depth == 0 ||
-        fmax(width, height) < 1e-9 * search->spacing)
+        fmax(width, height) < 1e-9 * search->spacing || search->status != STRUM_OK)
         return;
     static const double cuts[4] = {0.5, 0.47, 0.55, 0.42};
     for (int k = 0; k < 4; k++) { /* another cut where a zero lies on it */

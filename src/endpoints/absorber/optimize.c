@@ -96,5 +96,6 @@ const endpoint absorber_optimize = {
     .variables = true,
     .prepare = absorber_prepare,
     .cost_us = absorber_cost_us,
+    .solve_bytes = absorber_solve_bytes,
     .answer = respond,
 };

@@ -166,6 +166,13 @@ void absorber_prepare(void *data, schema_arena *arena, problem *p)
                      r->required.diameter_m;
 }
 
+/* A few chains at a time, and the sweep's branches. */
+double absorber_solve_bytes(const void *data)
+{
+    const absorber_request *r = data;
+    return 2e6 + 8192 * (double)r->in.components.count + 4096 * (double)r->sweep.points;
+}
+
 double absorber_cost_us(const void *data)
 {
     const absorber_request *r = data;

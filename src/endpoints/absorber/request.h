@@ -45,6 +45,7 @@ extern const schema absorber_schema;
 
 void absorber_prepare(void *request, schema_arena *arena, problem *p);
 double absorber_cost_us(const void *request);
+double absorber_solve_bytes(const void *request);
 /* Index of a declared variable (the first of that name), or -1. */
 int absorber_variable_index(const absorber_request *r, const char *name);
 

@@ -43,6 +43,7 @@ const char *forced_highest_field(const forced_request *r);
 extern const schema forced_request_schema;
 void forced_prepare(void *request, schema_arena *arena, problem *p);
 double forced_cost_us(const void *request);
+double forced_solve_bytes(const void *request);
 double forced_answer_bytes(const void *request, const char **pointer);
 
 #endif

@@ -13,5 +13,6 @@ const endpoint forced_tension = {
     .prepare = forced_prepare,
     .answer_bytes = forced_answer_bytes,
     .cost_us = forced_cost_us,
+    .solve_bytes = forced_solve_bytes,
     .answer = forced_answer,
 };

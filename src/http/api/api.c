@@ -27,6 +27,7 @@ static const page pages[] = {
     {.path = "/", .serve = page_asset, .methods = READ},
     {.path = "/docs", .serve = page_asset, .methods = READ},
     {.path = "/openapi.json", .serve = page_asset, .methods = READ},
+    {.path = "/openapi-3.2.json", .serve = page_asset, .methods = READ},
     {.path = "/docs/", .rest = "{endpoint}", .serve = page_asset, .methods = READ},
     {.path = "/assets/", .rest = "{file}", .serve = page_asset, .methods = READ, .open = true},
     {.path = NULL, .serve = handle_endpoint},

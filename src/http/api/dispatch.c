@@ -260,15 +260,23 @@ enum MHD_Result dispatch_begin(connection *p, const char *url, const char *verb,
     request_reset(r);
     r->began_us = clock_us();
     connection_enter(p, CONNECTION_READING, p->service->settings->request_timeout_s);
-    note_url(r, url);
     r->method = method_of(verb);
-    r->route = route_find(p->service->pages, url);
+    const bool is_target = target_split(url, r->method == METHOD_OPTIONS, &r->target);
+    note_url(r, r->target.path);
+    r->route = route_find(p->service->pages, r->target.path);
     headers h = {.request = r};
     MHD_get_connection_values_n(p->mhd, MHD_HEADER_KIND, read_header, &h);
+    /* Where the target names a host, that is what was meant, whatever Host says (RFC 9112 3.2.2). */
+    if (*r->target.authority)
+        h.browser.host = r->target.authority;
     r->is_lines =
         r->route.batch && h.content_type && is_type(h.content_type, "application/x-ndjson");
     r->client = who_asks(p, &h);
     check_framing(&h, r, version);
+    if (!r->refusal.status && !is_target)
+        problem_set(&r->refusal, 400,
+                    "a URL as the target names a host of up to %d characters, and no user",
+                    AUTHORITY_SIZE - 1);
     if (!r->refusal.status)
         check_browser(p, &h);
     if (!r->refusal.status)
@@ -294,7 +302,7 @@ enum MHD_Result dispatch_body(connection *p, const char *bytes, size_t size)
     }
     if (r->body_seen > limit + BODY_DRAIN)
         return MHD_NO;
-    if (!r->refusal.status && !memory_take_body(&p->service->memory, size)) {
+    if (!r->refusal.status && !memory_take_body(&p->service->memory, r->body_counted, size)) {
         problem_set(&r->refusal, 503, "no memory is free for this body; try again later");
         r->close = true;
     }

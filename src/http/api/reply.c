@@ -171,27 +171,42 @@ static void describe(const service *s, int address, struct MHD_Response *respons
     header(response, "Cache-Control", value_of[s->access != NULL][address]);
 }
 
-static void prebuilt_drop(void *ready)
+static void drop_response(void *ready)
 {
     MHD_destroy_response(ready);
 }
 
-void reply_prebuild(service *s, entry *e)
+static struct MHD_Response *prebuild(const service *s, entry *e, int address)
 {
-    e->prebuilt_drop = prebuilt_drop;
-    for (int i = 0; i < ENTRY_PREBUILT; i++) {
-        struct MHD_Response *ready = MHD_create_response_from_buffer_with_free_callback_cls(
-            e->size, e->body, release_body, e);
-        if (!ready)
-            return; /* each hit then makes its own response */
-        entry_hold_body(e);
-        header(ready, "Content-Type", JSON_TYPE);
-        describe(s, i, ready, e);
-        header(ready, "Cache-Status", "strum; hit");
-        if (*s->settings->cors_origins)
-            header(ready, "Vary", "Origin");
-        e->prebuilt[i] = ready;
+    struct MHD_Response *ready = MHD_create_response_from_buffer_with_free_callback_cls(
+        e->size, e->body, release_body, e);
+    if (!ready)
+        return NULL;
+    entry_hold_body(e);
+    header(ready, "Content-Type", JSON_TYPE);
+    describe(s, address, ready, e);
+    header(ready, "Cache-Status", "strum; hit");
+    if (*s->settings->cors_origins)
+        header(ready, "Vary", "Origin");
+    return ready;
+}
+
+struct MHD_Response *reply_prebuilt(const service *s, entry *e, int address)
+{
+    _Atomic(void *) *place = &e->prebuilt[address];
+    void *ready = atomic_load_explicit(place, memory_order_acquire);
+    if (ready)
+        return ready;
+    struct MHD_Response *mine = prebuild(s, e, address);
+    e->prebuilt_drop = drop_response;
+    /* Another event thread may have been faster. */
+    if (mine && !atomic_compare_exchange_strong(place, &ready, mine)) {
+        MHD_destroy_response(mine);
+        return ready;
     }
+    if (mine)
+        cache_count_prebuilt(s->cache, e);
+    return mine;
 }
 
 /* If-None-Match: a list of tags, weak ones too (RFC 9110 13.1.2), or "*". */
@@ -244,11 +259,12 @@ enum MHD_Result reply_entry(connection *p, entry *e, reply_source source)
     const request *r = p->request;
     if (!e)
         return queue(p, 503, p->service->no_memory, 0);
-    struct MHD_Response *ready = source == REPLY_HIT ? e->prebuilt[prebuilt_for(r)] : NULL;
-    const bool plain = ready && !r->if_none_match && !r->given_id && !r->traceparent &&
-                       !r->close && (!r->origin || !*p->service->settings->cors_origins) &&
+    const bool plain = source == REPLY_HIT && e->stored && !r->if_none_match && !r->given_id &&
+                       !r->traceparent && !r->close &&
+                       (!r->origin || !*p->service->settings->cors_origins) &&
                        !p->service->draining && p->service->settings->log_requests != LOG_ALL;
-    if (plain) {
+    struct MHD_Response *ready = plain ? reply_prebuilt(p->service, e, prebuilt_for(r)) : NULL;
+    if (ready) {
         const enum MHD_Result result = queue(p, 200, ready, e->size);
         entry_unref(e);
         return result;

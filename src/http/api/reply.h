@@ -29,8 +29,10 @@ enum MHD_Result reply_asset(struct connection *p, const struct asset *a);
 /* Answers OPTIONS: the methods allowed, and what pages of other origins may do. */
 enum MHD_Result reply_options(struct connection *p, unsigned methods);
 
-/* Makes an answer's prebuilt responses, which are sent unchanged for every plain hit. */
-void reply_prebuild(service *s, entry *e);
+/* The response that is sent unchanged for every plain hit of a stored answer, made when it is first
+ * needed and kept with the entry: `address` 0 from a question's own, 1 from the answer's. NULL
+ * when memory ran out. */
+struct MHD_Response *reply_prebuilt(const service *s, entry *e, int address);
 
 /* Returns the response sent when no other can be made (503, out of memory), or NULL. */
 struct MHD_Response *reply_no_memory(void);

@@ -6,6 +6,7 @@
 
 #include "cache/cache.h"
 #include "http/api/route.h"
+#include "http/api/target.h"
 #include "http/transport/connections.h"
 #include "http/transport/stream.h"
 
@@ -15,7 +16,8 @@ typedef struct request {
     connection *connection; /* its own, for as long as that lives */
     method method;
     route route;
-    char url[96]; /* for messages: printable, cut */
+    target target;
+    char url[96]; /* its path, for messages: printable, cut */
     /* headers that matter; libmicrohttpd's, valid as long as the request */
     const char *origin, *if_none_match, *accept, *accept_method;
     const char *traceparent;  /* W3C Trace Context; NULL: none, or none that can be read */
@@ -27,8 +29,8 @@ typedef struct request {
     unsigned client;          /* who asks (service/client.h) */
     strbuf body;
     size_t body_counted; /* bytes counted by memory_take_body */
-    uint64_t body_seen; /* bytes received, kept or not */
-    problem refusal;    /* status 0: none so far */
+    uint64_t body_seen;  /* bytes received, kept or not */
+    problem refusal;     /* status 0: none so far */
     /* the way to an answer (solve_handler.c) */
     waiter waiter;
     atomic_int handover; /* between the event thread and the thread that wakes it */

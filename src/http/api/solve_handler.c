@@ -90,8 +90,6 @@ static bool try_flight(service *s, const evaluation *a, const cache_key *key, fl
     const bool lasting = e && e->status == 200 && !e->transient;
     if (e)
         e->queue_us = queue_us;
-    if (lasting)
-        reply_prebuild(s, e);
     const bool complete = cache_complete(s->cache, f, e);
     if (lasting && share && !e->from_store)
         store_keep(s->store, e);
@@ -111,9 +109,7 @@ void solve_flight(service *s, const evaluation *a, const cache_key *key, flight 
 static void look_up(service *s, const cache_key *key, flight *f)
 {
     entry *e = find_stored(s, key);
-    if (e) {
-        reply_prebuild(s, e);
-    } else {
+    if (!e) {
         problem why = {0};
         problem_set(&why, 404, NOT_STORED);
         e = refusal_entry(key, &why);
@@ -237,7 +233,7 @@ static task *task_new(service *s, evaluation *a, const cache_key *key, flight *f
     *t = (task){.job = {.work = task_work,
                         .cost_us = cost_us,
                         .client = client,
-                        .bytes = memory_of_solve(cost_us)},
+                        .bytes = a ? evaluation_solve_bytes(a) : 0},
                 .service = s,
                 .asking = a,
                 .key = *key,
@@ -276,7 +272,8 @@ void solve_item_later(service *s, evaluation *a, const cache_key *key, flight *f
 /* POST with Accept: text/event-stream. */
 static bool wants_events(const request *r)
 {
-    return r->method == METHOD_POST && r->accept && strstr(r->accept, "text/event-stream");
+    return r->method & (METHOD_POST | METHOD_QUERY) && r->accept &&
+           strstr(r->accept, "text/event-stream");
 }
 
 /* Sends a stored answer. */
@@ -306,7 +303,7 @@ static enum MHD_Result solve(connection *p, evaluation *a)
     if (w && key_of_evaluation(a, &r->canonical, &key))
         turn = cache_acquire(s->cache, &key, w, &hit, &lead);
     /* Nor is anything solved on this thread while memory is short: it waits with the others. */
-    if (turn == ROLE_LEADER && (is_costly(s, a) || memory_used(&s->memory) > s->memory.limit))
+    if (turn == ROLE_LEADER && (is_costly(s, a) || !memory_for_small(&s->memory)))
         return queue_solve(p, a, &key, lead);
     if (turn == ROLE_LEADER)
         solve_flight(s, a, &key, lead, 0);
@@ -347,7 +344,10 @@ static enum MHD_Result solve_by_query(connection *p)
     q.bytes->size = 0;
     MHD_get_connection_values(p->mhd, MHD_GET_ARGUMENT_KIND, add_pair, &q);
     if (q.too_many)
-        return reply_refusal(p, 400, "more than %d parameters", QUERY_PAIRS_MAX);
+        return reply_refusal(p, 400,
+                             "more than %d parameters; the numbers of a list may stand in one, "
+                             "separated by commas",
+                             QUERY_PAIRS_MAX);
     if (q.bytes->failed)
         return reply_entry(p, NULL, REPLY_HIT);
     /* Keyed apart from bodies: a body may have the same bytes as a query. */

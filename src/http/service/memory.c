@@ -1,18 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "http/service/memory.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #define LEAST_LIMIT (64U << 20)
-/* The largest solves measured hold 75 bytes for each microsecond they take (200 modes of a cable of
- * chi from -12.5 to 12.5: 776 MB, 10.6 s). */
-#define BYTES_PER_US 75.0
-#define SOLVE_LEAST  (256U << 10)
-#define SOLVE_MOST   (1U << 30)
+/* Shares of the limit, so that what one kind holds never keeps out the others: bodies an eighth,
+ * solves and answers that are not sent yet five eighths, and one more for solves that are small.
+ * The last eighth is for what cannot be refused: small bodies, and answers that outgrow their
+ * estimate. */
+#define SHARES 8
+#define BODIES 1
+#define SOLVES 5
+#define SMALL  6
+/* One solve alone may begin with this much free, and hold up to memory_solve_most. */
+#define ALONE       3
+#define SMALL_SOLVE ((size_t)1 << 20)
+/* A request's first bytes are never refused: 16 MiB of 4096 connections. */
+#define SMALL_BODY 4096
 
 /* The value of memory.max in a folder; SIZE_MAX: none is set. */
 static size_t limit_in(const char *folder)
@@ -55,15 +62,26 @@ size_t memory_default(void)
     return half > LEAST_LIMIT ? half : LEAST_LIMIT;
 }
 
-size_t memory_used(const memory_account *m)
+size_t memory_solve_most(size_t limit)
 {
-    const size_t answers = entry_bytes(), stored = cache_body_bytes(m->cache);
-    return m->bodies + m->solves + (answers > stored ? answers - stored : 0);
+    return limit / 2;
 }
 
-bool memory_take_body(memory_account *m, size_t bytes)
+/* Solves, and answers that nobody keeps but those they are sent to. */
+static size_t solves_and_answers(const memory_account *m)
 {
-    if (memory_used(m) + bytes > m->limit)
+    const size_t answers = entry_bytes(), stored = cache_body_bytes(m->cache);
+    return m->solves + (answers > stored ? answers - stored : 0);
+}
+
+size_t memory_used(const memory_account *m)
+{
+    return m->bodies + solves_and_answers(m);
+}
+
+bool memory_take_body(memory_account *m, size_t before, size_t bytes)
+{
+    if (before + bytes > SMALL_BODY && m->bodies + bytes > m->limit / SHARES * BODIES)
         return false;
     atomic_fetch_add(&m->bodies, bytes);
     return true;
@@ -74,13 +92,19 @@ void memory_give_body(memory_account *m, size_t bytes)
     atomic_fetch_sub(&m->bodies, bytes);
 }
 
+bool memory_for_small(const memory_account *m)
+{
+    return solves_and_answers(m) <= m->limit / SHARES * SMALL;
+}
+
 bool memory_begin_solve(void *account, size_t bytes)
 {
     memory_account *m = account;
-    const size_t half = m->limit / 2;
-    /* One alone may need more than there is, but it waits while answers are not read. */
-    const size_t needed = m->solves > 0 || bytes < half ? bytes : half;
-    if (memory_used(m) + needed > m->limit)
+    const size_t share = m->limit / SHARES, alone = share * ALONE;
+    const size_t room = share * (bytes <= SMALL_SOLVE ? SMALL : SOLVES);
+    /* One alone may need more than is free, but it waits while answers are not read. */
+    const size_t needed = m->solves > 0 || bytes < alone ? bytes : alone;
+    if (solves_and_answers(m) + needed > room)
         return false;
     atomic_fetch_add(&m->solves, bytes);
     return true;
@@ -90,9 +114,4 @@ void memory_end_solve(void *account, size_t bytes)
 {
     memory_account *m = account;
     atomic_fetch_sub(&m->solves, bytes);
-}
-
-size_t memory_of_solve(double cost_us)
-{
-    return (size_t)fmin(SOLVE_LEAST + BYTES_PER_US * cost_us, SOLVE_MOST);
 }

@@ -22,16 +22,17 @@ size_t memory_default(void);
 
 /* Bytes in use now. */
 size_t memory_used(const memory_account *m);
-/* Counts `bytes` more of bodies; returns false if the limit would be passed. */
-bool memory_take_body(memory_account *m, size_t bytes);
+/* Counts `bytes` more of a body of which `before` are counted; false: there is no room, and the
+ * body is not small. */
+bool memory_take_body(memory_account *m, size_t before, size_t bytes);
 void memory_give_body(memory_account *m, size_t bytes);
 /* For a thread_pool: whether a job that needs `bytes` may begin now. One may when nothing else
  * is at work, or it would never be. It is counted until memory_end_solve. */
 bool memory_begin_solve(void *account, size_t bytes);
 void memory_end_solve(void *account, size_t bytes);
-
-/* A rough bound on what a solve holds, by its estimated time: what it fills it must also
- * compute. */
-size_t memory_of_solve(double cost_us);
+/* Whether a small solve may begin now. */
+bool memory_for_small(const memory_account *m);
+/* The most that one solve may hold where all may hold `limit`. */
+size_t memory_solve_most(size_t limit);
 
 #endif

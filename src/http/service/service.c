@@ -72,7 +72,7 @@ bool service_start(service *s, const settings *set, size_t routes,
     if (getrandom(&s->id_prefix, sizeof s->id_prefix, GRND_NONBLOCK) < 0)
         s->id_prefix = (uint32_t)clock_us();
     s->memory.limit = set->memory_bytes ? (size_t)set->memory_bytes : memory_default();
-    evaluation_limit((size_t)set->answer_bytes, s->memory.limit);
+    evaluation_limit((size_t)set->answer_bytes, memory_solve_most(s->memory.limit));
     snprintf(fault, 256, "out of memory or threads");
     return (s->metrics = metrics_new(routes, path)) &&
            (s->cache = cache_new((size_t)set->cache_bytes)) && (s->memory.cache = s->cache) &&

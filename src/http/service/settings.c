@@ -83,6 +83,9 @@ const setting settings_table[] = {
     {"request_timeout_s", SETTING_NUMBER, AT(request_timeout_s), 0.1, 3600, "10",
      "maximum time (seconds) to receive a request and to send its answer, also for slow "
      "clients"},
+    {"stream_bytes_per_s", SETTING_BYTES, AT(stream_bytes_per_s), 0, 1e15, "16K",
+     "minimum rate at which the client of a batch or of an event stream reads what is ready, on "
+     "average and after request_timeout_s; a slower one is cut; 0: any"},
     {"solve_timeout_s", SETTING_NUMBER, AT(solve_timeout_s), 0.1, 86400, "60",
      "maximum time (seconds) to wait for an answer and solve it; then 503"},
     {"drain_timeout_s", SETTING_NUMBER, AT(drain_timeout_s), 0, 3600, "30",

@@ -26,7 +26,7 @@ typedef struct settings {
     int64_t store_expiry_s;
     int64_t cache_bytes, memory_bytes, answer_bytes, body_bytes, json_depth, json_values;
     int64_t batches, batch_items, batch_body_bytes;
-    int64_t connections, connection_memory_bytes;
+    int64_t connections, connection_memory_bytes, stream_bytes_per_s;
     double idle_timeout_s, request_timeout_s, solve_timeout_s, drain_timeout_s;
     int64_t retry_after_s;
     char *cors_origins, *allowed_hosts, *token_file;

@@ -142,6 +142,18 @@ static job *take_from(thread_pool *c, thread_pool_lane lane)
     return j;
 }
 
+/* The first lane but `without` whose first job may begin, or LANES. */
+static int another_with_memory(thread_pool *c, int without)
+{
+    const bool starved = c->starved;
+    for (int i = 0; i < LANES && without != LANES; i++)
+        if (i != without && may_begin(c, (thread_pool_lane)i) &&
+            has_memory(c, (thread_pool_lane)i))
+            return i;
+    c->starved = starved;
+    return LANES;
+}
+
 /* Returns the next job of a worker for all lanes, or NULL. */
 static job *take(thread_pool *c)
 {
@@ -151,6 +163,8 @@ static job *take(thread_pool *c)
             (next == LANES || c->lanes[next].passed < PATIENCE))
             next = i;
     if (next == LANES || !has_memory(c, (thread_pool_lane)next))
+        next = another_with_memory(c, next);
+    if (next == LANES)
         return NULL;
     for (int i = next + 1; i < LANES; i++)
         c->lanes[i].passed += may_begin(c, (thread_pool_lane)i);

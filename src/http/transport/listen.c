@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <netdb.h>      /* getaddrinfo */
 #include <netinet/in.h> /* in6addr_loopback */
+#include <netinet/tcp.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,6 +16,18 @@
 
 /* A burst of new connections waits here; the kernel's limit may be lower. */
 #define LISTEN_BACKLOG 1024
+
+/* Bytes that the kernel takes of an answer beyond what is on its way. Without a limit it takes
+ * megabytes, holds them for who does not read, and asks for more only when a third is gone: from
+ * a client that reads steadily but slowly nothing is heard for longer than request_timeout_s. */
+#define UNSENT_MOST 65536
+
+/* Accepted sockets inherit it. */
+static void limit_unsent(int fd)
+{
+    const int most = UNSENT_MOST;
+    setsockopt(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most, sizeof most);
+}
 
 static bool is_loopback(const struct sockaddr *address)
 {
@@ -93,6 +106,7 @@ static bool take_passed(long number, bool allow_any, listen_at *at, char fault[2
         snprintf(fault, 256, "LISTEN_FDS: %s", strerror(errno));
     } else {
         *at = (listen_at){.fd = PASSED_FD, .inherited = true};
+        limit_unsent(at->fd);
         name_of(at->fd, at);
     }
     return at->fd >= 0;
@@ -142,6 +156,7 @@ bool listen_open(const char *where, bool allow_any, listen_at *at, char fault[25
     freeaddrinfo(found);
     if (at->fd >= 0 && listen(at->fd, LISTEN_BACKLOG) == 0) {
         name_of(at->fd, at);
+        limit_unsent(at->fd);
         return true;
     }
     note_error(where, fault);

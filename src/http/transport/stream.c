@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "http/transport/stream.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "http/service/clock.h"
@@ -55,12 +56,28 @@ static void suspend(stream *s)
         MHD_resume_connection(p->mhd);
 }
 
+/* Seconds that the client has for the next piece: request_timeout_s, or less where all pieces so
+ * far took nearly as long as the minimum rate allows them. */
+static double time_for_piece(stream *s)
+{
+    const settings *set = s->connection->service->settings;
+    const int64_t now = clock_ms();
+    if (s->handed_at_ms != 0)
+        s->reader_ms += now - s->handed_at_ms;
+    s->handed_at_ms = 0;
+    if (set->stream_bytes_per_s == 0)
+        return set->request_timeout_s;
+    const double used = (double)s->reader_ms / 1000;
+    const double allowed =
+        set->request_timeout_s + (double)s->sent_of_all / (double)set->stream_bytes_per_s;
+    return fmin(set->request_timeout_s, fmax(0, allowed - used));
+}
+
 static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t room)
 {
     (void)position;
     stream *s = cls;
-    connection_enter(s->connection, CONNECTION_SENDING,
-                     s->connection->service->settings->request_timeout_s);
+    connection_enter(s->connection, CONNECTION_SENDING, time_for_piece(s));
     while (s->sent == s->out.size) {
         s->out.size = s->sent = 0;
         /* What comes after this is seen by `next`, or wakes the stream. */
@@ -78,6 +95,8 @@ static ssize_t read_piece(void *cls, uint64_t position, char *to, size_t room)
     const size_t left = s->out.size - s->sent, size = left < room ? left : room;
     memcpy(to, s->out.data + s->sent, size);
     s->sent += size;
+    s->sent_of_all += size;
+    s->handed_at_ms = clock_ms();
     return (ssize_t)size;
 }
 

@@ -37,6 +37,8 @@ typedef struct stream {
     _Atomic(const char *) given_up;
     /* stream.c's own */
     size_t sent;
+    uint64_t sent_of_all;
+    int64_t handed_at_ms, reader_ms; /* when the last piece was handed on; time it all took */
     atomic_int handover;
     atomic_uint references;
 } stream;
