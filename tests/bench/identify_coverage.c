@@ -92,15 +92,18 @@ static double chi2_at(const record *r, double u, double rho, double tension)
 {
     const beam_end ends[2] = {beam_end_by_fixity(rho, u), beam_end_by_fixity(rho, u)};
     const double unit = sqrt((tension > 0 ? tension : 1) / MASS) / (2 * M_PI * LENGTH);
-    double fg = 0, gg = 0, ff = 0;
+    double f[MODES_MAX], g[MODES_MAX], fg = 0, gg = 0, sum = 0;
     for (size_t i = 0; i < r->count; i++) {
-        const double sd = r->weighted ? r->sd[i] : 1, f = r->f[i] / sd;
-        const double g = unit * beam_solve(r->modes[i], u, ends).om / sd;
-        fg += f * g;
-        gg += g * g;
-        ff += f * f;
+        const double sd = r->weighted ? r->sd[i] : 1;
+        f[i] = r->f[i] / sd;
+        g[i] = unit * beam_solve(r->modes[i], u, ends).om / sd;
+        fg += f[i] * g[i];
+        gg += g[i] * g[i];
     }
-    return tension > 0 ? ff - 2 * fg + gg : ff - fg * fg / gg;
+    const double scale = tension > 0 ? 1 : fg / gg;
+    for (size_t i = 0; i < r->count; i++)
+        sum += (f[i] - scale * g[i]) * (f[i] - scale * g[i]);
+    return sum;
 }
 
 static double dense_scan(const record *r)
@@ -149,57 +152,73 @@ static void print_table(const char *name, tally t[KINDS][BANDS])
                        100.0 * (double)t[k][b].covered / (double)t[k][b].determined);
 }
 
+typedef struct study {
+    tally t[3][KINDS][BANDS]; /* of tension, bending stiffness, fixity */
+    double slowest, sum;
+    long records, refused, scanned, beaten;
+} study;
+
+static void look(study *s, const record *r, const strum_identify *found)
+{
+    static const strum_identify_quantity which[3] = {
+        STRUM_IDENTIFY_TENSION, STRUM_IDENTIFY_BENDING, STRUM_IDENTIFY_FIXITY};
+    const double truth[3] = {TENSION, r->bending, r->rho};
+    int band = 0;
+    while (band < BANDS - 1 && r->xi > edges[band])
+        band++;
+    for (int q = 0; q < 3; q++)
+        if (strum_identify_estimate_of(found, which[q])->unknown)
+            count(&s->t[q][r->kind][band], strum_identify_estimate_of(found, which[q]),
+                  truth[q]);
+}
+
+static void scan(study *s, const record *r, const strum_identify *found)
+{
+    const double chi2 = strum_identify_summary_of(found)->chi_squared, least = dense_scan(r);
+    s->scanned++;
+    if (chi2 <= least * (1 + 1e-9))
+        return;
+    s->beaten++;
+    fprintf(stderr, "record %ld: chi^2 %.12g, scan %.12g (kind %d, xi %.4g, %zu modes)\n",
+            s->records, chi2, least, r->kind, r->xi, r->count);
+}
+
+static void solve(study *s, long stride)
+{
+    record r;
+    draw(&r);
+    strum_identify *found = NULL;
+    strum_error error = {0};
+    const double begin = bench_now_us();
+    const strum_status status = strum_identify_solve(&r.p, NULL, &found, &error);
+    const double us = bench_now_us() - begin;
+    s->slowest = fmax(s->slowest, us);
+    s->sum += us;
+    if (status == STRUM_OK) {
+        look(s, &r, found);
+        if (s->records % stride == 0)
+            scan(s, &r, found);
+    } else {
+        s->refused++;
+        fprintf(stderr, "record %ld: %s\n", s->records, error.reason);
+    }
+    s->records++;
+    strum_identify_free(found);
+}
+
 int main(int argc, char **argv)
 {
     const long records = argc > 1 ? atol(argv[1]) : 10000,
                stride = argc > 2 ? atol(argv[2]) : 10;
-    tally t[3][KINDS][BANDS] = {{{{0}}}};
-    const strum_identify_quantity which[3] = {STRUM_IDENTIFY_TENSION, STRUM_IDENTIFY_BENDING,
-                                              STRUM_IDENTIFY_FIXITY};
-    double slowest = 0, sum = 0, worst = 0;
-    long refused = 0, scanned = 0, beaten = 0;
-    for (long i = 0; i < records; i++) {
-        record r;
-        draw(&r);
-        strum_identify *found = NULL;
-        strum_error error = {0};
-        const double begin = bench_now_us();
-        const strum_status status = strum_identify_solve(&r.p, NULL, &found, &error);
-        const double us = bench_now_us() - begin;
-        slowest = fmax(slowest, us);
-        sum += us;
-        if (status != STRUM_OK) {
-            refused++;
-            fprintf(stderr, "record %ld: %s\n", i, error.reason);
-            continue;
-        }
-        int band = 0;
-        while (band < BANDS - 1 && r.xi > edges[band])
-            band++;
-        const double truth[3] = {TENSION, r.bending, r.rho};
-        for (int q = 0; q < 3; q++)
-            if (strum_identify_estimate_of(found, which[q])->unknown)
-                count(&t[q][r.kind][band], strum_identify_estimate_of(found, which[q]),
-                      truth[q]);
-        if (i % stride == 0) {
-            const double chi2 = strum_identify_summary_of(found)->chi_squared,
-                         least = dense_scan(&r);
-            scanned++;
-            if (chi2 > least * (1 + 1e-9) + 1e-13) {
-                beaten++;
-                worst = fmax(worst, chi2 / least);
-                fprintf(stderr,
-                        "record %ld: chi^2 %.12g, scan %.12g (kind %d, xi %.4g, %zu modes)\n",
-                        i, chi2, least, r.kind, r.xi, r.count);
-            }
-        }
-        strum_identify_free(found);
-    }
-    print_table("tension", t[0]);
-    print_table("bending stiffness", t[1]);
-    print_table("fixity", t[2]);
+    static study s;
+    while (s.records < records)
+        solve(&s, stride > 0 ? stride : 10);
+    print_table("tension", s.t[0]);
+    print_table("bending stiffness", s.t[1]);
+    print_table("fixity", s.t[2]);
     printf("\n%ld records, %ld refused; %ld minima compared with a dense scan, %ld beaten; CPU "
            "%.0f us each, %.1f ms at most\n",
-           records, refused, scanned, beaten, sum / (double)records, slowest / 1000);
-    return refused + beaten > 0;
+           s.records, s.refused, s.scanned, s.beaten, s.sum / (double)s.records,
+           s.slowest / 1000);
+    return s.refused + s.beaten > 0;
 }

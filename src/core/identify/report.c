@@ -11,6 +11,7 @@
 /* Columns that are parallel to this: no data of these modes could tell them apart. */
 #define STRUCTURAL 1e-10
 #define ACTS       1e-6
+#define ROUNDING   1e-15
 /* Intervals wider than this factor (e^2) do not determine a quantity. */
 #define WIDE 2.0
 /* A frequency disagrees when its residual is beyond this quantile, by Bonferroni's rule. */
@@ -42,7 +43,7 @@ static strum_status decompose(strum_identify *f)
         double norm = 0;
         for (size_t i = 0; i < best->rows; i++)
             norm += column[i] * column[i];
-        f->regular[j] = sqrt(norm) > 1e-14 * scale;
+        f->regular[j] = sqrt(norm) > 1e-10 * scale;
         if (f->regular[j]) {
             memcpy(&a[(size_t)n * best->rows], column, best->rows * sizeof *a);
             which[n++] = (int)j;
@@ -56,9 +57,11 @@ static strum_status decompose(strum_identify *f)
         s->weakest[which[i]] = vt[(n - 1) + i * n];
         for (int j = 0; j < n; j++) {
             double sum = 0;
-            for (int k = 0; k < n; k++)
-                sum += vt[k + i * n] * vt[k + j * n] /
-                       (s->singular_values[k] * s->singular_values[k]);
+            for (int k = 0; k < n; k++) {
+                /* 0 to rounding: no bound, but a number */
+                const double sv = fmax(s->singular_values[k], ROUNDING * s->singular_values[0]);
+                sum += vt[k + i * n] / sv * (vt[k + j * n] / sv);
+            }
             f->covariance[which[i]][which[j]] = sum;
         }
     }
