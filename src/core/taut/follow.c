@@ -255,7 +255,8 @@ strum_status strum_taut_follow(const strum_taut *chain, long mode, const double 
             return error_set(error, STRUM_ERR_ACCURACY,
                              "mode %ld cannot be followed beyond %.6g times the damping", mode,
                              branch.factor);
-        roots[i] = (strum_taut_root){mode, cimag(branch.s[0]), -creal(branch.s[0]), INFINITY};
+        roots[i] =
+            (strum_taut_root){mode, cimag(branch.s[0]), -creal(branch.s[0]), INFINITY, 0.0};
     }
     return STRUM_OK;
 }
