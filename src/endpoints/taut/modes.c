@@ -335,6 +335,40 @@ static strum_status write_verification(json_writer *json, const strum_taut *chai
     return STRUM_OK;
 }
 
+/* A damper to ground this near an end, in lengths, is that of a stay. */
+#define STAY_DAMPER 0.1
+/* w L/T from which sag matters to it: no steel cable is strained by more than 1/200, so that
+ * lambda^2 = (w L/T)^2 EA/T is then 1 at least  [Irvine 1981]. */
+#define STAY_SAGS  0.07
+#define STAY_STIFF 200.0
+#define GRAVITY    9.80665
+
+/* A chain is straight; a stay sags, and its sag takes damping from mode 1. Said only of what the
+ * request shows to be one: cable alone, with a damper near its end. */
+static void warn_sag(const request *r, answer *a)
+{
+    double length = 0, mass = 0, tension = 0, at = -1;
+    chain_glance part;
+    for (size_t i = 0; i < r->in.components.count; i++) {
+        if (!chain_look(&r->in, NULL, i, &part) || part.absorber)
+            return;
+        if (part.damper)
+            at = length;
+        length += part.length;
+        mass += part.length * part.mass_per_length;
+        tension = fmax(tension, part.tension);
+    }
+    const double near = fmin(at, length - at) / length, share = mass * GRAVITY / tension;
+    if (r->in.left_end != STRUM_TAUT_FIXED || r->in.right_end != STRUM_TAUT_FIXED || at < 0 ||
+        near > STAY_DAMPER || !(share > STAY_SAGS))
+        return;
+    answer_warn(a,
+                "a chain is straight: if this is a stay in air, its weight over its tension is "
+                "%.2g, lambda^2 some %.1g or more, and its sag takes damping from mode 1; "
+                "/v1/cable/modes knows sag and bending stiffness",
+                share, STAY_STIFF * share * share);
+}
+
 /* Mode numbers without an oscillating root, and roots without a number. */
 static void warn_of_numbers(const strum_taut_roots *roots, answer *a)
 {
@@ -493,6 +527,7 @@ static bool respond(const void *data, answer *a)
                           "from zero damping, certified by the argument principle"
                         : "taut chain by transfer matrices (Levesque 1997; Sergev and Iwan "
                           "1980): every mode by an exact shooting count";
+        warn_sag(r, a);
         warn(r, roots, a);
         status = write_result(r, roots, a, &fault);
     }
