@@ -12,7 +12,7 @@ import sys
 
 TOLERANCES = ("absolute", "relative", "of_largest")
 REPORTS = (("sergev_iwan", "sergev_iwan"), ("inclined", "grinfogel"), ("grinfogel", "grinfogel"), ("gale", "gale"),
-           ("catenary", "gale"), ("forced", "gale"), ("cable", "general"))
+           ("catenary", "gale"), ("forced", "gale"), ("cable", "general"), ("identify", "general"))
 
 
 def is_number(value):
