@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "endpoints/absorber/answer.h"
+#include "endpoints/common/plausibility.h"
 
 /* Damping ratios from here on, and distances from a border, that call for a word. */
 #define NO_LONGER_OSCILLATES 0.999
@@ -61,6 +62,7 @@ static bool respond(const void *data, answer *a)
     a->theory = "exact transfer matrices of the chain (Levesque 1997), max-min of the damping "
                 "ratio over all "
                 "modes that were asked for";
+    warn_chain(&r->in, a);
     absorber_begin(&s, r, a);
     const strum_status status = solve(&s, &best, &roots, &late, &error);
     if (status != STRUM_OK) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "endpoints/catenary/comparison.h"
+#include "endpoints/common/plausibility.h"
 
 enum { PLANE_IN, PLANE_OUT, PLANE_BOTH };
 static const char *const planes[] = {"in_plane", "out_of_plane", "both", NULL};
@@ -361,6 +362,11 @@ static bool answer_modes(const void *data, answer *a)
     }
     a->theory = theory(r);
     cable_warn(&r->in, a);
+    warn_suspended(&r->in, a);
+    if (asks(r, STRUM_IN_PLANE)) {
+        warn_without_stretch(&r->in, a);
+        warn_added_mass(r->in.added_mass_kg_per_m, r->in.mass_kg_per_m, turn_of(&r->in), a);
+    }
     json_writer *json = a->result;
     json_open_object(json);
     cable_write_geometry(json, &r->in);
