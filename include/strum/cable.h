@@ -154,7 +154,7 @@ typedef struct strum_cable_params {
     bool span_unknown; /* all lengths are given, and the span follows */
     bool slack_branch; /* of two shapes with one end tension, the longer */
     strum_cable_end end_1, end_2;
-    bool stiff;   /* bending stiffness counts in the static shape */
+    bool stiff;   /* bending stiffness counts in the static shape; not on a bed */
     size_t spans; /* so many equal level spans in a row: 1 .. STRUM_CABLE_SPANS_MAX */
     double hanger_length, hanger_mass; /* between them: a rigid rod from a fixed point above */
     strum_cable_bed bed;
@@ -217,7 +217,7 @@ typedef struct strum_cable_statics {
     size_t contacts;     /* stretches on the bed: strum_cable_contact_get */
     int solutions;       /* shapes that fit what was given: 1 or 2 */
     double other_length; /* unstretched length of the other one; NAN where there is none */
-    double moment_end_1, moment_end_2; /* N m; 0 with flexible statics */
+    double moment_end_1, moment_end_2; /* EI times curvature, N m; 0 with flexible statics */
     double closure;                    /* largest error of end 2's place over the length */
     double lowest_clearance;  /* smallest height above the bed of what hangs; NAN without */
     double smallest_reaction; /* of the bed, N/m or N; NAN where nothing lies */
@@ -250,6 +250,7 @@ typedef struct strum_cable_joint {
 strum_status strum_cable_attachment_get(const strum_hanging *cable, size_t i,
                                         strum_cable_joint *joint);
 
+/* tension: with bending stiffness in the shape the normal force, not the size of the force. */
 typedef struct strum_cable_point {
     double position, x, z, tension, angle;
 } strum_cable_point;

@@ -93,6 +93,10 @@ double strum_xi_of_chi(double chi);
 double strum_chi_of_xi(double xi);
 /* Length (unstretched) from end 1 to where the cable is parallel to its chord, in a. */
 double strum_catenary_parallel(const strum_catenary *catenary);
+/* Length (in a) that an inextensible profile's cable has without load if its flexibility is kappa
+ * = H/EA >= 0: INT d sigma/(1 + kappa S). Weight and tension are those of the profile, per
+ * stretched length. */
+double strum_catenary_unstretched(const strum_catenary *catenary, double kappa);
 /* Largest vertical distance between chord and cable, in a. */
 double strum_catenary_sag(const strum_catenary *catenary);
 /* Position (in a) from end 1 of the point with slope parameter chi. */

@@ -31,6 +31,7 @@
 #include <strum/taut.h>
 #include <strum/absorber.h>
 #include <strum/cable.h>
+#include <strum/cable_modes.h>
 #include <strum/identify.h>
 
 #endif

@@ -6,6 +6,7 @@
 #include "json/read.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,7 @@
 typedef struct scan {
     const char *start, *at, *end;
     int depth, values; /* still allowed */
+    bool long_numbers; /* there are some that cJSON does not read */
     int status;        /* of the fault */
     const char *fault; /* static strbuf */
 } scan;
@@ -76,8 +78,7 @@ static bool scan_number(scan *s)
     const char *end = json_number_end(s->at, s->end);
     if (end == NULL)
         return scan_fail(s, 400, "not a number as JSON writes it");
-    if (end - s->at > JSON_NUMBER_CHARACTERS)
-        return scan_fail(s, 400, "a number longer than 63 characters");
+    s->long_numbers |= end - s->at > JSON_NUMBER_CHARACTERS;
     s->at = end;
     return true;
 }
@@ -344,6 +345,34 @@ static void check_value(const cJSON *value, const json_place *place, problem *p)
     }
 }
 
+/* cJSON reads numbers of up to JSON_NUMBER_CHARACTERS: writes longer ones, outside of strings, as
+ * the shortest that is the same double, and blanks. `text` is a document that was scanned. */
+static void shorten_numbers(char *text, const char *end)
+{
+    bool inside = false;
+    for (char *at = text; at < end; at++) {
+        if (inside && *at == '\\') {
+            at++;
+        } else if (*at == '"') {
+            inside = !inside;
+        } else if (!inside && (*at == '-' || (*at >= '0' && *at <= '9'))) {
+            const char *after = json_number_end(at, end);
+            const size_t size = (size_t)(after - at);
+            if (size > JSON_NUMBER_CHARACTERS) {
+                const double value = strtod(at, NULL);
+                char shorter[32];
+                /* What is too large for a double is refused later, by its place. */
+                const int written = isfinite(value)
+                                        ? snprintf(shorter, sizeof shorter, "%.17g", value)
+                                        : snprintf(shorter, sizeof shorter, "1e999");
+                memset(at, ' ', size);
+                memcpy(at, shorter, (size_t)written);
+            }
+            at += size - 1;
+        }
+    }
+}
+
 bool json_read(const char *bytes, size_t size, const json_limits *limits, cJSON **document,
                problem *p)
 {
@@ -361,6 +390,8 @@ bool json_read(const char *bytes, size_t size, const json_limits *limits, cJSON 
     if (copy != NULL) {
         memcpy(copy, bytes, size);
         copy[size] = '\0';
+        if (s.long_numbers)
+            shorten_numbers(copy, copy + size);
         /* The scan left cJSON nothing to refuse: when it does, memory ran out. */
         *document = cJSON_ParseWithLengthOpts(copy, size + 1, NULL, 1);
         free(copy);

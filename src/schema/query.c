@@ -23,15 +23,50 @@ static cJSON *text_value(const char *value, size_t size)
     return item;
 }
 
-/* A number by JSON's grammar: no leading +, no spaces. */
+static const char *after_digits(const char *at, const char *end)
+{
+    while (at < end && *at >= '0' && *at <= '9')
+        at++;
+    return at;
+}
+
+/* A + that was not escaped arrives as a space. */
+static const char *after_sign(const char *at, const char *end)
+{
+    return at < end && (*at == '-' || *at == '+' || *at == ' ') ? at + 1 : at;
+}
+
+/* Where a number ends as programs write it: as JSON does, and +3e6, .5, 5. and 007; NULL: there
+ * is none. */
+static const char *number_end(const char *at, const char *end)
+{
+    const char *const integer = after_sign(at, end);
+    at = after_digits(integer, end);
+    bool digits = at > integer;
+    if (at < end && *at == '.') {
+        const char *const fraction = at + 1;
+        at = after_digits(fraction, end);
+        digits |= at > fraction;
+    }
+    if (!digits || at == end || (*at != 'e' && *at != 'E'))
+        return digits ? at : NULL;
+    const char *const exponent = after_sign(at + 1, end);
+    at = after_digits(exponent, end);
+    return at > exponent ? at : NULL;
+}
+
 static cJSON *number_value(const char *value, size_t size)
 {
-    char copy[JSON_NUMBER_CHARACTERS + 1];
-    if (size >= sizeof copy || json_number_end(value, value + size) != value + size)
+    if (number_end(value, value + size) != value + size)
         return text_value(value, size);
-    memcpy(copy, value, size);
-    copy[size] = '\0';
-    return cJSON_CreateNumber(strtod(copy, NULL));
+    char *copy = strndup(value, size);
+    if (copy == NULL)
+        return NULL;
+    for (char *c = copy; *c != '\0'; c++)
+        *c = *c == ' ' ? '+' : *c;
+    cJSON *item = cJSON_CreateNumber(strtod(copy, NULL));
+    free(copy);
+    return item;
 }
 
 static cJSON *list_value(const char *value, bool numbers)

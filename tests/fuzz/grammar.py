@@ -12,7 +12,7 @@ import re
 
 # How often an endpoint is asked. The search for an absorber is the costly one; cases are known and few.
 WEIGHTS = {"/v1/catenary/frequencies": 28, "/v1/forced/tension": 14, "/v1/inclined/modes": 24, "/v1/taut/modes": 22,
-           "/v1/cable/statics": 16, "/v1/taut/matrix": 11, "/v1/absorber/optimize": .6,
+           "/v1/cable/statics": 10, "/v1/cable/modes": 16, "/v1/taut/matrix": 11, "/v1/absorber/optimize": .6,
            "/v1/identify/tension": 10, "/v1/validation": .1}
 EXTREMES = [0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1e-308, 1e-300, 1e-160, 1e-16, 1 - 2 ** -53, 1.0, 1 + 2 ** -52,
             2.0 ** 31, 2.0 ** 53, 1e16, 1e155, 1e300, 1e308, 1.7976931348623157e308]

@@ -36,7 +36,7 @@ typedef struct cable_rod cable_rod;
 
 struct strum_hanging {
     atomic_size_t references;
-    arena memory;              /* owns all that is pointed at below but the rod */
+    arena memory;              /* owns all that is pointed at below */
     strum_cable_params params; /* sections and attachments point into the copies below */
     strum_cable_section *sections;
     strum_cable_attachment *attachments; /* sorted by position */

@@ -7,6 +7,7 @@
 #include "core/cable/check.h"
 #include "core/cable/ends.h"
 #include "core/cable/form.h"
+#include "core/cable/rod_ends.h"
 #include "core/cable/settle.h"
 
 /* ---- the object ---- */
@@ -133,28 +134,16 @@ static strum_status second_state(strum_hanging *cable, bool *changed, strum_erro
 
 /* ---- the answer ---- */
 
-static strum_status keep(strum_hanging *cable, const cable_settler *s)
+/* Lengths and span so that the figure that is given holds, as the cable was handed in. */
+static strum_status first_state(cable_settler *s, strum_error *error)
 {
-    const cable_form *form = &s->form;
-    strum_cable_statics *figures = &cable->statics;
-    cable->pieces = form->pieces;
-    cable->piece_count = form->count;
-    cable->contacts = form->contacts;
-    cable->stations = arena_alloc(&cable->memory, form->count + 1, sizeof *cable->stations);
-    if (cable->stations == NULL)
-        return STRUM_ERR_MEMORY;
-    for (size_t i = 0; i < form->count; i++) {
-        const cable_piece *piece = form->pieces + i;
-        const line_piece *from = s->line.pieces + form->origin[i];
-        const bool begins = i == 0 || form->origin[i] != form->origin[i - 1];
-        cable->stations[i] = (cable_station){piece->start, piece->x, piece->z, from->first,
-                                             begins ? from->count : 0};
-    }
-    form_measure(form, s->span, cable->params.rise, figures);
-    cable->stations[form->count] =
-        (cable_station){figures->unstretched_length, s->span, cable->params.rise, 0, 0};
-    figures->lowest_clearance = settle_clearance(s);
-    return STRUM_OK;
+    strum_hanging *cable = s->cable;
+    cable->statics.solutions = 1;
+    cable->statics.other_length = NAN;
+    if (cable->params.given == STRUM_CABLE_LENGTHS)
+        return settle(s, error);
+    const strum_status status = ends_find(s, &cable->statics, error);
+    return status == STRUM_OK && settle_bends(cable) ? rod_ends_find(s, error) : status;
 }
 
 static strum_status hang(const strum_cable_params *p, strum_hanging *cable, work *w,
@@ -167,13 +156,12 @@ static strum_status hang(const strum_cable_params *p, strum_hanging *cable, work
         status = settle_begin(cable, w, &s);
     if (status != STRUM_OK)
         return work_result(w, status, error);
-    cable->statics.solutions = 1;
-    cable->statics.other_length = NAN;
-    if (p->stiff)
-        status = error_set(error, STRUM_ERR_METHOD, "a cable without bending stiffness only");
-    else
-        status = p->given == STRUM_CABLE_LENGTHS ? settle(&s, error)
-                                                 : ends_find(&s, &cable->statics, error);
+    if (p->bed.present && settle_bends(cable))
+        return error_at(
+            error, STRUM_ERR_METHOD, STRUM_CABLE_ARG_BED, STRUM_NO_INDEX,
+            "bending stiffness in the static shape goes without a bed only: ask for "
+            "flexible statics");
+    status = first_state(&s, error);
     if (status == STRUM_OK)
         status = second_state(cable, &changed, error);
     if (status == STRUM_OK && changed)
@@ -181,7 +169,7 @@ static strum_status hang(const strum_cable_params *p, strum_hanging *cable, work
     if (status != STRUM_OK)
         return status;
     cable->params.span = s.span;
-    return work_result(w, keep(cable, &s), error);
+    return settle_keep(&s, error);
 }
 
 strum_status strum_cable_hang(const strum_cable_params *params, const strum_options *options,

@@ -5,6 +5,7 @@
 
 #include "core/cable/bed.h"
 #include "core/cable/free.h"
+#include "core/cable/rod.h"
 
 /* A piece that touches the bed is cut where it lands, becomes slack, is pulled and lifts. */
 #define PARTS_MAX 5
@@ -57,8 +58,49 @@ strum_status settle(cable_settler *s, strum_error *error)
     return bed_settle(&s->line, s->cable, s->span, h, v, &s->form, s->touching, s->work, error);
 }
 
-double settle_clearance(const cable_settler *s)
+bool settle_bends(const strum_hanging *cable)
 {
-    const strum_cable_bed *bed = &s->cable->params.bed;
-    return bed->present ? bed_clearance(&s->form, bed) : NAN;
+    bool any = false;
+    for (size_t i = 0; i < cable->params.section_count; i++)
+        any = any || cable->sections[i].bending_stiffness > 0;
+    return any && cable->params.stiff;
+}
+
+/* Pieces, stations and figures of the form as it is. */
+static strum_status keep(const cable_settler *s)
+{
+    strum_hanging *cable = s->cable;
+    const cable_form *form = &s->form;
+    const strum_cable_bed *bed = &cable->params.bed;
+    strum_cable_statics *figures = &cable->statics;
+    cable->rod = NULL;
+    cable->pieces = form->pieces;
+    cable->piece_count = form->count;
+    cable->contacts = form->contacts;
+    cable->stations = arena_alloc(&cable->memory, form->count + 1, sizeof *cable->stations);
+    if (cable->stations == NULL)
+        return STRUM_ERR_MEMORY;
+    for (size_t i = 0; i < form->count; i++) {
+        const cable_piece *piece = form->pieces + i;
+        const line_piece *from = s->line.pieces + form->origin[i];
+        const bool begins = i == 0 || form->origin[i] != form->origin[i - 1];
+        cable->stations[i] = (cable_station){piece->start, piece->x, piece->z, from->first,
+                                             begins ? from->count : 0};
+    }
+    form_measure(form, s->span, cable->params.rise, figures);
+    cable->stations[form->count] =
+        (cable_station){figures->unstretched_length, s->span, cable->params.rise, 0, 0};
+    figures->lowest_clearance = bed->present ? bed_clearance(form, bed) : NAN;
+    return STRUM_OK;
+}
+
+strum_status settle_keep(cable_settler *s, strum_error *error)
+{
+    strum_status status = keep(s);
+    if (status != STRUM_OK || !settle_bends(s->cable))
+        return work_result(s->work, status, error);
+    status = rod_settle(s->cable, s->span, s->work, error);
+    if (status == STRUM_OK)
+        rod_measure(s->cable, s->span);
+    return status;
 }

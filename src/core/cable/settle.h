@@ -25,7 +25,9 @@ strum_status settle_begin(strum_hanging *cable, work *w, cable_settler *s);
 void settle_cut(cable_settler *s);
 /* Finds s->form for the lengths and s->span as they are. */
 strum_status settle(cable_settler *s, strum_error *error);
-/* Smallest height above the bed of what hangs between its ends; NAN without a bed. */
-double settle_clearance(const cable_settler *s);
+/* Whether bending stiffness counts in the shape. */
+bool settle_bends(const strum_hanging *cable);
+/* Gives the cable its form, with bending stiffness where that counts, and its figures. */
+strum_status settle_keep(cable_settler *s, strum_error *error);
 
 #endif

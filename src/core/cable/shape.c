@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "core/cable/form.h"
+#include "core/cable/rod.h"
 
 void strum_cable_statics_get(const strum_hanging *cable, strum_cable_statics *statics)
 {
@@ -41,6 +42,21 @@ static const cable_piece *piece_at(const strum_hanging *cable, double position)
     return cable->pieces + low;
 }
 
+/* Angle and tension of a piece at one of its ends. */
+static void side_of(const strum_hanging *cable, size_t piece, double s, double *angle,
+                    double *tension)
+{
+    if (rod_bends(cable, piece)) {
+        const rod_point at = rod_at(cable, piece, s, false);
+        *angle = at.angle;
+        *tension = at.normal;
+        return;
+    }
+    const form_state at = form_at(cable->pieces + piece, s);
+    *angle = form_angle(cable->pieces + piece, s);
+    *tension = hypot(at.h, at.v);
+}
+
 strum_status strum_cable_attachment_get(const strum_hanging *cable, size_t i,
                                         strum_cable_joint *joint)
 {
@@ -55,15 +71,16 @@ strum_status strum_cable_attachment_get(const strum_hanging *cable, size_t i,
         k++;
     if (k == 0 || k == cable->piece_count)
         return STRUM_ERR_INTERNAL;
-    const cable_piece *left = cable->pieces + k - 1, *right = cable->pieces + k;
-    const form_state before = form_at(left, left->length);
-    const double from = form_angle(left, left->length), to = form_angle(right, 0);
+    const cable_piece *left = cable->pieces + k - 1;
+    double from, to, tension_left, tension_right;
+    side_of(cable, k - 1, left->length, &from, &tension_left);
+    side_of(cable, k, 0, &to, &tension_right);
     *joint = (strum_cable_joint){
         .position = cable->stations[k].position,
         .x = cable->stations[k].x,
         .z = cable->stations[k].z,
-        .tension_left = hypot(before.h, before.v),
-        .tension_right = hypot(right->h, right->v),
+        .tension_left = tension_left,
+        .tension_right = tension_right,
         .kink = fabs(remainder(to - from, 2 * M_PI)),
     };
     return STRUM_OK;
@@ -73,6 +90,11 @@ static strum_cable_point point_at(const strum_hanging *cable, double position)
 {
     const cable_piece *piece = piece_at(cable, position);
     const double s = fmin(position - piece->start, piece->length);
+    const size_t index = (size_t)(piece - cable->pieces);
+    if (rod_bends(cable, index)) {
+        const rod_point at = rod_at(cable, index, s, true);
+        return (strum_cable_point){position, at.x, at.z, at.normal, at.angle};
+    }
     const form_state at = form_at(piece, s);
     return (strum_cable_point){position, at.x, at.z, hypot(at.h, at.v), form_angle(piece, s)};
 }

@@ -390,6 +390,17 @@ double strum_catenary_parallel(const strum_catenary *c)
     return 2 * cosh(c->chi_m - mu / 2) * sinh(mu / 2) + beyond;
 }
 
+double strum_catenary_unstretched(const strum_catenary *c, double kappa)
+{
+    double node[128], weight[128], stretch = 0;
+    gauss_legendre(128, node, weight);
+    for (size_t i = 0; i < 128; i++) {
+        const double tension = cosh(c->chi_m + c->mu * node[i]);
+        stretch += c->mu * weight[i] * tension * (kappa * tension / (1 + kappa * tension));
+    }
+    return c->length - stretch;
+}
+
 double strum_catenary_sag(const strum_catenary *c)
 {
     /* Deepest where the tangent is parallel to the chord; the chord is there as far above the

@@ -331,7 +331,7 @@ static const char *theory(const request *r)
     if (r->method == METHOD_SERIES)
         return "linear dynamics about the inextensible catenary, power series about xi = 0 and "
                "xi = 2 (Gale 1976, 2.42-2.74, 2.44-2.110)";
-    return FIELD_GIVEN(&request_schema, &r->in, unstretched_length_m)
+    return r->in.elastic_profile
                ? "linear dynamics about the exact elastic catenary, Galerkin's method"
                : "linear dynamics about the inextensible catenary (Gale 1976, 2.29-2.44), "
                  "Galerkin's method";

@@ -9,7 +9,18 @@ const char *const cable_geometry_groups[] = {
     "chi_1 chi_2",
     "span_m [rise_m] length_m",
     "span_m [rise_m] unstretched_length_m +axial_stiffness_N +mass_kg_per_m",
+    "span_m [rise_m] horizontal_tension_N +mass_kg_per_m",
+    "span_m [rise_m] tension_end_1_N [branch] +mass_kg_per_m",
+    "span_m [rise_m] tension_end_2_N [branch] +mass_kg_per_m",
+    "span_m [rise_m] tension_parallel_to_chord_N +mass_kg_per_m",
+    "span_m [rise_m] catenary_parameter_m",
+    "span_m [rise_m] sag_mid_m",
+    "span_m [rise_m] sag_max_m",
+    "span_m [rise_m] depth_below_end_1_m",
+    "span_m [rise_m] angle_end_1_deg",
+    "span_m [rise_m] angle_end_2_deg",
     NULL};
+const char *const cable_branches[] = {"taut", "slack", NULL};
 const char *const cable_elasticity_groups[] = {"flexibility", "axial_stiffness_N", NULL};
 
 void cable_refuse(const strum_error *fault, strum_status status, problem *p)
@@ -24,7 +35,7 @@ void cable_refuse(const strum_error *fault, strum_status status, problem *p)
 }
 
 /* The catenary of whichever group was given. */
-static strum_status find_catenary(const schema *s, const cable_input *in, strum_catenary *c,
+static strum_status find_catenary(const schema *s, cable_input *in, strum_catenary *c,
                                   strum_error *error)
 {
     if (FIELD_GIVEN(s, in, sag_parameter))
@@ -35,6 +46,8 @@ static strum_status find_catenary(const schema *s, const cable_input *in, strum_
         return strum_catenary_from_chi(in->chi_1, in->chi_2, c, error);
     if (FIELD_GIVEN(s, in, length_m))
         return strum_catenary_from_length(in->span_m, in->rise_m, in->length_m, c, error);
+    if (cable_figure_pointer(s, in) != NULL)
+        return cable_find_by_figure(s, in, c, error);
     return strum_catenary_from_unstretched(
         in->span_m, in->rise_m, in->unstretched_length_m,
         in->weight_N_per_m * in->unstretched_length_m / in->axial_stiffness_N, c, error);
@@ -43,6 +56,9 @@ static strum_status find_catenary(const schema *s, const cable_input *in, strum_
 /* The field to lay an error of the catenary at: the one of its group that decides. */
 static const char *field_at_fault(const schema *s, const cable_input *in, int argument)
 {
+    const char *figure = cable_figure_pointer(s, in);
+    if (figure != NULL)
+        return figure;
     switch (argument) {
     case STRUM_CATENARY_ARG_RISE:
         return "/rise_to_span";
@@ -101,8 +117,10 @@ void cable_prepare(const schema *s, cable_input *in, problem *p)
     in->ratio =
         mass ? sqrt(in->weight_N_per_m / (in->mass_kg_per_m * in->gravity_m_per_s2)) : 1;
     in->rad_per_s = in->a_m > 0 ? sqrt(in->gravity_m_per_s2 / in->a_m) : 0;
-    const bool elastic_profile = FIELD_GIVEN(s, in, unstretched_length_m);
-    const double kappa = elastic_profile ? c->kappa
+    in->elastic_profile =
+        FIELD_GIVEN(s, in, unstretched_length_m) ||
+        (cable_figure_pointer(s, in) != NULL && FIELD_GIVEN(s, in, axial_stiffness_N));
+    const double kappa = in->elastic_profile ? c->kappa
                          : FIELD_GIVEN(s, in, axial_stiffness_N)
                              ? in->tension_N / in->axial_stiffness_N
                              : in->flexibility;
@@ -110,7 +128,7 @@ void cable_prepare(const schema *s, cable_input *in, problem *p)
         (strum_cable){.chi_m = c->chi_m,
                       .mu = c->mu,
                       .kappa_t = kappa,
-                      .kappa_n = elastic_profile ? kappa : 0,
+                      .kappa_n = in->elastic_profile ? kappa : 0,
                       .mass_t = 1,
                       .mass_n = mass ? 1 + in->added_mass_kg_per_m / in->mass_kg_per_m : 1,
                       .eta_t = in->eta_tangential / in->ratio,
@@ -120,6 +138,18 @@ void cable_prepare(const schema *s, cable_input *in, problem *p)
 bool cable_damped(const cable_input *in)
 {
     return in->eta_tangential > 0 || in->eta_normal > 0;
+}
+
+static double unstretched_length(const cable_input *in)
+{
+    if (in->unstretched_length_m > 0)
+        return in->unstretched_length_m;
+    if (in->elastic_profile)
+        return in->rest_length_m;
+    if (in->cable.kappa_t >
+        0) /* an inextensible profile, of what would be so long without load */
+        return strum_catenary_unstretched(&in->catenary, in->cable.kappa_t) * in->a_m;
+    return in->length_m > 0 ? in->length_m : in->catenary.length * in->a_m;
 }
 
 void cable_write_geometry(json_writer *json, const cable_input *in)
@@ -149,10 +179,8 @@ void cable_write_geometry(json_writer *json, const cable_input *in)
         json_put_number(json, "a_m", in->a_m);
         json_put_number(json, "span_m", in->span_m);
         json_put_number(json, "rise_m", in->rise_m);
-        const bool elastic = in->unstretched_length_m > 0;
         json_put_number(json, "length_m", profile ? in->length_m : c->length * in->a_m);
-        json_put_number(json, "unstretched_length_m",
-                        elastic ? in->unstretched_length_m : in->length_m);
+        json_put_number(json, "unstretched_length_m", unstretched_length(in));
         json_put_number(json, "sag_m", sag * in->a_m);
     }
     if (in->tension_N > 0) {
@@ -160,6 +188,10 @@ void cable_write_geometry(json_writer *json, const cable_input *in)
         json_put_number(json, "tension_1_N", in->tension_N * cosh(chi_1));
         json_put_number(json, "tension_2_N", in->tension_N * cosh(chi_2));
     }
+    if (in->solutions > 0)
+        json_put_integer(json, "solutions", in->solutions);
+    if (in->solutions > 1)
+        json_put_number(json, "other_unstretched_length_m", in->other_length_m);
     json_close_object(json);
 }
 

@@ -34,9 +34,11 @@ static const field fields[] = {
     CHAIN_FIELDS,
     CHAIN_END_FIELDS,
     {FIELD_AT(FIELD_INTEGER, request, modes), .min = 1, .max = MODES_MAX,
-     .flags = FIELD_DEFAULT, .fallback = 10, .help = "how many modes, from first_mode on"},
+     .flags = FIELD_DEFAULT, .fallback = 10,
+     .help = "how many modes, by frequency, from first_mode on"},
     {FIELD_AT(FIELD_INTEGER, request, first_mode), .min = 1, .max = STRUM_TAUT_MODE_MAX,
-     .flags = FIELD_DEFAULT, .fallback = 1, .help = "number of the first mode"},
+     .flags = FIELD_DEFAULT, .fallback = 1,
+     .help = "place of the first mode among all by frequency; without damping its number"},
     {FIELD_AT(FIELD_NUMBERS, request, mode_numbers), .min = 1, .max = STRUM_TAUT_MODE_MAX,
      .flags = FIELD_ASCENDING | FIELD_WHOLE, .min_items = 1, .max_items = MODES_MAX,
      .help = "these modes"},
@@ -278,6 +280,8 @@ static strum_status write_mode(const request *r, const strum_taut_root *root, an
     strum_status status = STRUM_OK;
     json_open_object(json);
     chain_write_root(json, root);
+    if (root->mode == 0)
+        json_put_flag(json, "unnumbered", true);
     if (root->frequency > 0.0 && ((r->nodes && !damped) || r->shape_points > 0))
         status = strum_taut_shape_make(r->chain, root, &options, &shape, fault);
     if (status == STRUM_OK && shape != NULL && r->nodes && !damped)
@@ -322,15 +326,68 @@ static strum_status write_verification(json_writer *json, const strum_taut *chai
     return STRUM_OK;
 }
 
-static void warn(const strum_taut_roots *roots, answer *a)
+/* A damper to ground this near an end, in lengths, is that of a stay. */
+#define STAY_DAMPER 0.1
+/* w L/T from which sag matters to it: no steel cable is strained by more than 1/200, so that
+ * lambda^2 = (w L/T)^2 EA/T is then 1 at least  [Irvine 1981]. */
+#define STAY_SAGS  0.07
+#define STAY_STIFF 200.0
+#define GRAVITY    9.80665
+
+/* A chain is straight; a stay sags, and its sag takes damping from mode 1. Said only of what the
+ * request shows to be one: cable alone, with a damper near its end. */
+static void warn_sag(const request *r, answer *a)
 {
-    if (roots->lost > 0)
-        answer_warn(
-            a,
-            "the branches of %ld modes could not be followed to the full damping (their decay "
-            "grows without bound, or they meet other roots): no root has their numbers; a band "
-            "gives all roots, with or without",
-            roots->lost);
+    double length = 0, mass = 0, tension = 0, at = -1;
+    chain_glance part;
+    for (size_t i = 0; i < r->in.components.count; i++) {
+        if (!chain_look(&r->in, NULL, i, &part) || part.absorber)
+            return;
+        if (part.damper)
+            at = length;
+        length += part.length;
+        mass += part.length * part.mass_per_length;
+        tension = fmax(tension, part.tension);
+    }
+    const double near = fmin(at, length - at) / length, share = mass * GRAVITY / tension;
+    if (r->in.left_end != STRUM_TAUT_FIXED || r->in.right_end != STRUM_TAUT_FIXED || at < 0 ||
+        near > STAY_DAMPER || !(share > STAY_SAGS))
+        return;
+    answer_warn(a,
+                "a chain is straight: if this is a stay in air, its weight over its tension is "
+                "%.2g, lambda^2 some %.1g or more, and its sag takes damping from mode 1; "
+                "/v1/cable/modes knows sag and bending stiffness",
+                share, STAY_STIFF * share * share);
+}
+
+/* Mode numbers without an oscillating root, and roots without a number. */
+static void warn_of_numbers(const strum_taut_roots *roots, answer *a)
+{
+    bool unnumbered = false;
+    if (roots->missing_count > 0)
+        answer_warn(a,
+                    "%zu mode numbers, the first of them %ld, have no oscillating root: "
+                    "missing_modes says what became of each",
+                    roots->missing_count, roots->missing[0].mode);
+    for (size_t i = 0; i < roots->count; i++)
+        unnumbered = unnumbered || roots->roots[i].mode == 0;
+    if (unnumbered)
+        answer_warn(a, "roots without a number lie on no branch from zero damping");
+}
+
+static void warn(const request *r, const strum_taut_roots *roots, answer *a)
+{
+    warn_of_numbers(roots, a);
+    if (roots->hidden_beyond)
+        answer_warn(a,
+                    "a damper matches its cable: beyond a decay of %.6g 1/s rounding hides "
+                    "whatever roots there are, and none is answered there",
+                    roots->max_decay);
+    if (!by_band(r) && r->mode_numbers.count == 0 && roots->count < r->number_count)
+        answer_warn(a,
+                    "the chain has %zu oscillating roots only where %zu were asked for; "
+                    "looked for up to %.6g rad/s",
+                    roots->count, r->number_count, roots->highest);
     if (roots->missed > 0)
         answer_warn(a,
                     "Muller's method missed %ld of the roots that the count expects; "
@@ -351,11 +408,24 @@ static void warn(const strum_taut_roots *roots, answer *a)
                 roots->roots[i].frequency);
             break;
         }
-    bool unnumbered = false;
-    for (size_t i = 0; i < roots->count; i++)
-        unnumbered = unnumbered || roots->roots[i].mode == 0;
-    if (unnumbered)
-        answer_warn(a, "roots without a number lie on no branch from zero damping");
+}
+
+/* What became of the modes that no oscillating root has the number of. */
+static void write_missing(json_writer *json, const strum_taut_roots *roots)
+{
+    static const char *const fates[] = {"overdamped", "unbounded", "coalesced"};
+    if (roots->missing_count == 0)
+        return;
+    json_key(json, "missing_modes");
+    json_open_array(json);
+    for (size_t i = 0; i < roots->missing_count; i++) {
+        json_open_object(json);
+        json_put_integer(json, "mode", roots->missing[i].mode);
+        json_put_string(json, "fate", fates[roots->missing[i].fate]);
+        json_put_number(json, "followed_to", roots->missing[i].factor);
+        json_close_object(json);
+    }
+    json_close_array(json);
 }
 
 static strum_status write_result(const request *r, const strum_taut_roots *roots, answer *a,
@@ -382,6 +452,7 @@ static strum_status write_result(const request *r, const strum_taut_roots *roots
         json_close_object(json);
     }
     json_close_array(json);
+    write_missing(json, roots);
     write_count(json, roots);
     json_put_string(json, "normalisation",
                     "the largest displacement along the chain is 1 (the leftmost where tied)");
@@ -404,8 +475,11 @@ static strum_status refusal(const request *r, strum_error *fault)
 static bool respond(const void *data, answer *a)
 {
     const request *r = data;
-    const strum_taut_query query = {.numbers = r->numbers,
-                                    .count = r->number_count,
+    const bool listed = r->mode_numbers.count > 0, placed = !by_band(r) && !listed;
+    const strum_taut_query query = {.numbers = listed ? r->numbers : NULL,
+                                    .count = listed ? r->number_count : 0,
+                                    .first = placed ? (long)r->first_mode : 0,
+                                    .wanted = placed ? r->number_count : 0,
                                     .lowest = by_band(r) ? r->band_rad_per_s.items[0] : 0.0,
                                     .highest = by_band(r) ? r->band_rad_per_s.items[1] : 0.0,
                                     .max_decay = by_band(r) ? r->max_decay_per_s : 0.0,
@@ -424,7 +498,8 @@ static bool respond(const void *data, answer *a)
                         : "taut chain by transfer matrices (Levesque 1997; Sergev and Iwan "
                           "1980): every mode by an exact shooting count";
         warn_chain(&r->in, a);
-        warn(roots, a);
+        warn_sag(r, a);
+        warn(r, roots, a);
         status = write_result(r, roots, a, &fault);
     }
     strum_taut_roots_free(roots);

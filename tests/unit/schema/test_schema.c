@@ -409,12 +409,62 @@ static void expect_query_faults(const query_pair *pairs, size_t count, const sch
     problem_clear(&p);
 }
 
+static const field span_fields[] = {{.name = "span_m",
+                                     .kind = FIELD_NUMBER,
+                                     .offset = sizeof(field_set),
+                                     .min = -1e9,
+                                     .max = 1e9},
+                                    {.kind = FIELD_END}};
+static const schema span_schema = {
+    .name = "span", .fields = span_fields, .size = sizeof(field_set) + sizeof(double)};
+
+/* As other programs write numbers, and as + arrives that was not escaped. */
+static void query_numbers_may_be_spelt_otherwise(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double value;
+    } numbers[] = {
+        {"3e6", 3e6},
+        {"+3E+6", 3e6},
+        {" 3e 6", 3e6},
+        {".5", 0.5},
+        {"5.", 5},
+        {"007", 7},
+        {"+.5e-1", 0.05},
+        {"5.e2", 500},
+        {"12e0", 12},
+        {"0.10000000000000000000000000000000000000000000000000000000000000000001", 0.1}};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        const query_pair pair = {"span_m", numbers[i].text};
+        problem p = {0};
+        schema_arena *arena = NULL;
+        const char *span = schema_read_query(&span_schema, &pair, 1, &arena, &p);
+        double value;
+        assert_non_null(span);
+        memcpy(&value, span + sizeof(field_set), sizeof value);
+        assert_true(value == numbers[i].value);
+        schema_free(arena);
+        problem_clear(&p);
+    }
+    static const char *const none[] = {"",    ".",   "+",   "e5",  "1e", "1e+",
+                                       "--1", "1 2", "0x1", "inf", "1f"};
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
+        const query_pair pair = {"span_m", none[i]};
+        problem p = {0};
+        schema_arena *arena = NULL;
+        assert_null(schema_read_query(&span_schema, &pair, 1, &arena, &p));
+        problem_clear(&p);
+    }
+}
+
 static void query_faults_are_named(void **state)
 {
     (void)state;
     const query_pair pairs[] = {
-        {"sag_parameter", "+0.5"},
-        {"xi_1", " 1"},
+        {"sag_parameter", "0.5 "},
+        {"xi_1", "1,5"},
         {"mass_kg_per_m", "0x10"},
         {"flexibility", "1e400"},
         {"verify", "yes"},
@@ -429,8 +479,8 @@ static void query_faults_are_named(void **state)
         pairs, sizeof pairs / sizeof pairs[0], &cable_schema,
         "/modes: given more than once\n"
         "/flexibility: given more than once\n"
-        "/sag_parameter: expected a number, found the string \"+0.5\"\n"
-        "/xi_1: expected a number, found the string \" 1\"\n"
+        "/sag_parameter: expected a number, found the string \"0.5 \"\n"
+        "/xi_1: expected a number, found the string \"1,5\"\n"
         "/mass_kg_per_m: expected a number, found the string \"0x10\"\n"
         "/flexibility: expected a number, found a number too large for a double\n"
         "/verify: expected true or false, found the string \"yes\"\n"
@@ -570,6 +620,7 @@ int main(void)
         cmocka_unit_test(endless_faults_are_counted),
         cmocka_unit_test(query_is_the_same_request),
         cmocka_unit_test(query_faults_are_named),
+        cmocka_unit_test(query_numbers_may_be_spelt_otherwise),
         cmocka_unit_test(objects_end_with_the_request),
         cmocka_unit_test(equal_requests_have_equal_bytes),
     };

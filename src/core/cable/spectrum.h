@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The modes of one stretch of cable that moves by itself. */
+#ifndef CORE_CABLE_SPECTRUM_H
+#define CORE_CABLE_SPECTRUM_H
+
+#include <complex.h>
+
+#include "core/cable/reduced.h"
+
+typedef struct {
+    double _Complex lambda;
+    double *re, *im; /* the unknowns; im NULL: undamped */
+    double error;    /* estimate, relative */
+} spectrum_mode;
+
+typedef struct spectrum {
+    motion motion;
+    stiffness stiffness;
+    spectrum_mode *modes;
+    int count;
+    bool damped;
+    double *decays; /* overdamped */
+    int overdamped;
+    long expected, found;
+    double error;
+} spectrum;
+
+/* Memory is the arena's, whose work is asked. */
+strum_status spectrum_make(const strum_hanging *cable, const motion_choice *choice,
+                           arena *memory, spectrum *s);
+
+/* What the discretisation leaves, by the last coefficients; for spectrum_damped.c. */
+double spectrum_mesh_error(const motion *m, const double *v);
+
+#endif
