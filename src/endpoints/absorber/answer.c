@@ -82,18 +82,25 @@ static void write_search(json_writer *json, const absorber_request *r,
 }
 
 /* S_G = 8 pi^2 St^2 zeta m/(rho D^2)  [Griffin; Levesque 1-2, 4-1], solved for zeta. */
-static void write_required(json_writer *json, const absorber_request *r,
-                           const strum_absorber_optimum *best)
+double absorber_required_ratio(const absorber_request *r, const double *values)
 {
     if (!FIELD_GIVEN(&absorber_schema, r, required))
-        return;
-    const chain_variables x = {r->names, best->values, r->variables.count};
+        return NAN;
+    const chain_variables x = {r->names, values, r->variables.count};
     const absorber_required *q = &r->required;
     const double mass = chain_mean_mass(&r->in, &x);
     if (!(mass > 0))
+        return NAN;
+    return q->reduced_damping * q->fluid_kg_per_m3 * q->diameter_m * q->diameter_m /
+           (8 * M_PI * M_PI * q->strouhal * q->strouhal * mass);
+}
+
+static void write_required(json_writer *json, const absorber_request *r,
+                           const strum_absorber_optimum *best)
+{
+    const double ratio = absorber_required_ratio(r, best->values);
+    if (isnan(ratio))
         return;
-    const double ratio = q->reduced_damping * q->fluid_kg_per_m3 * q->diameter_m *
-                         q->diameter_m / (8 * M_PI * M_PI * q->strouhal * q->strouhal * mass);
     json_put_number(json, "required_damping_ratio", ratio);
     json_put_flag(json, "met", best->damping_ratio >= ratio);
 }

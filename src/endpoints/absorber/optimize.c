@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "endpoints/absorber/answer.h"
+#include "endpoints/absorber/assess.h"
 #include "endpoints/common/plausibility.h"
 
 /* Damping ratios from here on, and distances from a border, that call for a word. */
@@ -64,10 +65,17 @@ static bool respond(const void *data, answer *a)
                 "modes that were asked for";
     warn_chain(&r->in, a);
     absorber_begin(&s, r, a);
+    if (r->assess) {
+        a->theory = "exact transfer matrices of the chain (Levesque 1997); required damping by "
+                    "Griffin's reduced damping";
+        return absorber_assess(&s);
+    }
     const strum_status status = solve(&s, &best, &roots, &late, &error);
     if (status != STRUM_OK) {
         strum_taut_roots_free(roots);
         chain_refuse(&error, status, a->problem);
+        if (status == STRUM_ERR_IMPOSSIBLE && !answer_cancelled(a))
+            absorber_explain(&s);
         return false;
     }
     if (late) {
