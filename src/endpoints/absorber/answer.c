@@ -2,6 +2,7 @@
 /* What is said of an optimum: the modes there, whether they suffice, the closed forms beside
  * it, a sweep. */
 #include "endpoints/absorber/answer.h"
+#include "endpoints/common/plausibility.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -172,6 +173,7 @@ static strum_status write_closed_forms(json_writer *json, absorber_solving *s,
         const double share = sin((double)mode * M_PI * left.length / length);
         const double ratio = part.mass / (rho * length / 2) * share * share;
         if (part.absorber && ratio > 0) {
+            warn_of_tuning(fmin(left.length, right.length) / length, s->a);
             const strum_absorber_form h =
                 strum_absorber_den_hartog(part.mass, ratio, (double)mode * first);
             const strum_absorber_form c =

@@ -382,8 +382,11 @@ static bool answer_modes(const void *data, answer *a)
             "(the first such point where tied)");
     if (good && r->method == METHOD_SERIES)
         write_series(json, found);
-    if (good && r->compare)
+    if (good && r->compare) {
         write_comparison(json, &r->in, found);
+        if (asks(r, STRUM_IN_PLANE))
+            warn_of_crossover(strum_catenary_sag(&r->in.catenary) / r->in.catenary.span, a);
+    }
     if (good && r->verify)
         good = write_verification(json, &r->in, found, a);
     json_close_object(json);

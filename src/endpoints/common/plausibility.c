@@ -101,6 +101,34 @@ void warn_suspended(const cable_input *in, answer *a)
         warn_end_angle(end + 1, atan(sinh(chi[end])) * 180 / M_PI, a);
 }
 
+/* At sag 1:20 the first crossover has moved by 4 %. */
+#define CROSSOVER_SAG 0.05
+/* At a tenth of the length the best tuning is 2 % above the formula's. */
+#define ANCHOR_PLACE 0.1
+
+void warn_of_crossover(double sag, answer *a)
+{
+    if (sag > CROSSOVER_SAG)
+        answer_warn(
+            a,
+            "the handbook's shallow cable is compared at a sag of %.3g of the span: with "
+            "lambda squared from weight and tension its first crossover, 4 pi squared, lies "
+            "at 0.963 of that for a sag of 1:20, 0.864 for 1:10, 0.800 for 1:8",
+            sag);
+}
+
+void warn_of_tuning(double place, answer *a)
+{
+    if (place <= ANCHOR_PLACE)
+        answer_warn(
+            a,
+            "closed forms tune an absorber at %.3g of the length from an end to the wrong "
+            "side: they leave out how the other modes soften its support; at 0.05 with 30 "
+            "%% of the cable's mass they say 0.986 of the mode's frequency, the best is "
+            "1.05",
+            place);
+}
+
 void warn_motion(double amplitude, answer *a)
 {
     if (amplitude > MOTION_MOST)

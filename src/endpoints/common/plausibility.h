@@ -25,6 +25,10 @@ void warn_suspended(const cable_input *in, answer *a);
 void warn_added_mass(double added, double mass, double slope, answer *a);
 /* Half the angle by which a suspended cable turns between its ends, rad. */
 double turn_of(const cable_input *in);
+/* The handbook beside the answer, where it fails: doc/handbook.md. */
+void warn_of_crossover(double sag_to_span, answer *a);
+/* `place`: of an absorber, from the nearer end, over the length. */
+void warn_of_tuning(double place, answer *a);
 /* Amplitude of an end's motion over the span. */
 void warn_motion(double amplitude_to_span, answer *a);
 /* Parts of a chain that do nothing where they stand. */
