@@ -121,6 +121,14 @@ strum_status strum_cable_modes_shape(const strum_cable_modes *modes, size_t inde
                                      const double *positions, size_t n,
                                      strum_cable_motion_point *points);
 
+/* A second method: collocation of the first-order system at Gauss points, each mode's lambda
+ * corrected by inverse iteration. The difference is that correction over |lambda|; counts are those
+ * of the certificate. STRUM_ERR_ACCURACY where the cable needs too many elements; and what `options`
+ * ends, STRUM_ERR_MEMORY. */
+strum_status strum_cable_modes_verify(const strum_cable_modes *modes,
+                                      const strum_options *options,
+                                      strum_verification *verification, strum_error *error);
+
 /* NULL is fine. */
 void strum_cable_modes_free(strum_cable_modes *modes);
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The cable as it hangs, over HTTP: one cable however it is written, and answers that can be asked again."""
 import json
+import math
+import random
 
 import pytest
 
@@ -81,6 +83,12 @@ def test_mirrored_it_is_the_same_cable(strumd):
         assert [mode[name] for mode in there] == pytest.approx([mode[name] for mode in here], rel=1e-9)
 
 
+@pytest.mark.parametrize("question", [STAY, EVERYTHING, ROW, CHAIN], ids=["stay", "everything", "row", "chain"])
+def test_a_second_method_agrees(strumd, question):
+    said = strumd.post({**question, "modes": 3, "verify": True}, MODES).json()["result"]["verification"]
+    assert said["max_relative_difference"] < 1e-10 and said["modes_found"] == said["modes_expected"] >= 6
+
+
 def test_a_batch_has_the_same_bytes(strumd):
     items = [{"path": path, "request": question} for path, question in QUESTIONS[:3]]
     lines = strumd.post(items, "/v1/batch").content.splitlines()
@@ -92,3 +100,49 @@ def test_too_large_a_shape_is_refused_before_the_work(start_strumd):
     strumd = start_strumd("--answer-bytes", "1M")
     refused = strumd.post({**STAY, "modes": 100, "shape_points": 2000}, MODES)
     assert refused.status_code == 400 and refused.json()["errors"][0]["pointer"] == "/shape_points", refused.text
+
+
+def frequencies(modes):
+    return [mode["frequency_Hz"] for mode in modes]
+
+
+@pytest.mark.parametrize("number", range(12))
+def test_bare_it_is_the_suspended_cable(strumd, number):
+    """Without bodies and bending stiffness, level or inclined, stiff or elastic: /v1/catenary/frequencies."""
+    rng = random.Random(f"bare {number}")
+    common = {"span_m": rng.uniform(20, 500), "mass_kg_per_m": rng.uniform(.5, 50), "added_mass_kg_per_m": rng.choice([0, 3]),
+              "rise_m": rng.choice([0, rng.uniform(-100, 100)]), "modes": 6}
+    length = math.hypot(common["span_m"], common["rise_m"]) * (1 + 10 ** rng.uniform(-2.5, -.5))
+    elastic = {"axial_stiffness_N": common["mass_kg_per_m"] * length * 10 ** rng.uniform(3, 6)} if number % 2 else {}
+    known = strumd.post({**common, **elastic, "unstretched_length_m" if elastic else "length_m": length}, "/v1/catenary/frequencies")
+    here = strumd.post({**common, **elastic, "length_m": length}, MODES)
+    assert known.status_code == here.status_code == 200, here.text
+    for plane in ("in_plane", "out_of_plane"):
+        assert frequencies(here.json()["result"][plane]) == pytest.approx(frequencies(known.json()["result"][plane]), rel=1e-12)
+
+
+@pytest.mark.parametrize("number", range(12))
+def test_straight_it_is_the_taut_chain(strumd, number):
+    """Weightless and taut, with masses, dampers and absorbers across it: /v1/taut/modes."""
+    rng = random.Random(f"straight {number}")
+    tension, mass = rng.uniform(1e3, 1e6), rng.uniform(.5, 20)
+    lengths = [rng.uniform(5, 40) for _ in range(3)]
+    damped = number % 2
+    parts = [{"type": "damper", "damping_N_s_per_m": .3 * (tension * mass) ** .5} if damped
+             else {"type": "point_mass", "mass_kg": rng.uniform(1, 100)},
+             {"type": "hanging_absorber", "mass_kg": rng.uniform(1, 50), "stiffness_N_per_m": tension / 100,
+              "damping_N_s_per_m": rng.uniform(1, 100) if damped else 0}]
+    cables = [{"type": "cable", "length_m": length, "mass_kg_per_m": mass} for length in lengths]
+    chain = {"tension_N": tension, "modes": 6, "components": [cables[0], parts[0], cables[1], parts[1], cables[2]]}
+    places = [lengths[0], lengths[0] + lengths[1]]
+    attachments = [{**part, "position_m": place, **({} if part["type"] == "damper" else {"weight_N": 0}),
+                    **({} if part["type"] == "point_mass" else {"direction": "out_of_plane"})} for part, place in zip(parts, places)]
+    here = strumd.post({"horizontal_tension_N": tension, "length_m": sum(lengths), "mass_kg_per_m": mass, "weight_N_per_m": 0,
+                        "plane": "out_of_plane", "modes": 6, "attachments": attachments}, MODES)
+    known = strumd.post(chain, "/v1/taut/modes")
+    assert known.status_code == here.status_code == 200, here.text
+    known = sorted((mode for mode in known.json()["result"]["modes"] if "frequency_Hz" in mode), key=lambda mode: mode["frequency_Hz"])
+    here = here.json()["result"]["out_of_plane"][:len(known)]
+    assert len(known) >= 5 and frequencies(here) == pytest.approx(frequencies(known[:len(here)]), rel=1e-11)
+    if damped:
+        assert [mode["damping_ratio"] for mode in here] == pytest.approx([mode["damping_ratio"] for mode in known], abs=1e-11)

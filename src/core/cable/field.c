@@ -79,7 +79,7 @@ static void inertia(field *f)
 
 /* Z(lambda) of a damper, or of an absorber along its line:
  * m lambda^2 (k + c lambda)/(m lambda^2 + k + c lambda). */
-static double _Complex impedance(const motion_link *link, double _Complex lambda)
+double _Complex field_impedance(const motion_link *link, double _Complex lambda)
 {
     const double _Complex pull = link->stiffness + link->damping * lambda;
     if (!(link->mass > 0))
@@ -103,7 +103,7 @@ static void attached(field *f)
         const motion_link *link = m->links + i;
         const double _Complex *u = f->node_u + 2 * link->node;
         const double _Complex pull =
-            impedance(link, lambda) * (link->x * u[0] + link->z * u[1]);
+            field_impedance(link, lambda) * (link->x * u[0] + link->z * u[1]);
         f->node_force[2 * link->node] -= pull * link->x;
         f->node_force[2 * link->node + 1] -= pull * link->z;
     }

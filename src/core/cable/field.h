@@ -24,6 +24,9 @@ typedef struct field {
 
 strum_status field_make(const spectrum *s, const spectrum_mode *mode, arena *memory, field *f);
 
+/* Z(lambda) of a damper, or of an absorber along its line. */
+double _Complex field_impedance(const motion_link *link, double _Complex lambda);
+
 typedef struct field_point {
     double _Complex u[2], force[2];
     double _Complex rotation, bend; /* bend: its derivative */

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/cable/pivots.h"
 #include "core/numerics/linalg.h"
 
 #define FRONT_MAX 40 /* unknowns at a node: displacements, rotation, forces, what is held */
 #define HELD_MAX  30
-#define NEAR_ZERO 1e-11
 #define RIGID     1e-9 /* of the compliance of the cable across */
 
 typedef struct {
@@ -24,112 +24,15 @@ typedef struct {
     double *slope[2], *displacement, *matrix, *room;
 } counter;
 
-/* ---- pivots ---- */
-
-/* Eliminates the first `count` of n symmetric unknowns without pivoting (lower triangle, column
- * major); returns whether no pivot was near 0. */
-static bool eliminate(int n, int count, double *a, long *negative)
-{
-    bool safe = true;
-    for (int j = 0; j < count; j++) {
-        double *column = a + (size_t)j * n;
-        const double pivot = column[j];
-        double largest = 0;
-        for (int i = j + 1; i < n; i++)
-            largest = fmax(largest, fabs(column[i]));
-        safe = safe && fabs(pivot) > NEAR_ZERO * largest;
-        *negative += pivot < 0;
-        for (int i = j + 1; i < n && pivot != 0; i++)
-            if (column[i] != 0)
-                motion_add((size_t)(n - i), -column[i] / pivot, column + i,
-                           a + (size_t)i * n + i);
-    }
-    return safe;
-}
-
-static void swap(int n, double *a, int i, int j)
-{
-    for (int k = 0; k < n && i != j; k++) {
-        const double kept = a[k * n + i];
-        a[k * n + i] = a[k * n + j];
-        a[k * n + j] = kept;
-    }
-    for (int k = 0; k < n && i != j; k++) {
-        const double kept = a[i * n + k];
-        a[i * n + k] = a[j * n + k];
-        a[j * n + k] = kept;
-    }
-}
-
-static void pivot_one(int n, int j, double *a)
-{
-    const double pivot = a[j * n + j];
-    for (int i = j + 1; i < n; i++) {
-        const double factor = a[j * n + i] / pivot;
-        for (int k = j + 1; k < n; k++)
-            a[k * n + i] -= factor * a[j * n + k];
-    }
-}
-
-static void pivot_two(int n, int j, double *a)
-{
-    const double p = a[j * n + j], q = a[j * n + j + 1], r = a[(j + 1) * n + j + 1];
-    const double determinant = p * r - q * q;
-    for (int i = j + 2; i < n; i++) {
-        const double x = a[j * n + i], y = a[(j + 1) * n + i];
-        const double first = (r * x - q * y) / determinant;
-        const double second = (p * y - q * x) / determinant;
-        for (int k = j + 2; k < n; k++)
-            a[k * n + i] -= first * a[j * n + k] + second * a[(j + 1) * n + k];
-    }
-}
-
-/* The same of few unknowns, full matrix, with complete pivoting (Bunch and Parlett, SIAM J. Numer.
- * Anal. 8, 1971). */
-static bool eliminate_few(int n, int count, double *a, long *negative)
-{
-    const double ratio = (1 + sqrt(17)) / 8;
-    for (int j = 0; j < count;) {
-        int diagonal = j, row = j, column = j;
-        for (int i = j; i < count; i++)
-            for (int k = j; k <= i; k++) {
-                if (i == k && fabs(a[i * n + i]) > fabs(a[diagonal * n + diagonal]))
-                    diagonal = i;
-                if (i != k &&
-                    (row == column || fabs(a[k * n + i]) > fabs(a[column * n + row]))) {
-                    row = i;
-                    column = k;
-                }
-            }
-        const double off = row == column ? 0 : fabs(a[column * n + row]);
-        const double on = fabs(a[diagonal * n + diagonal]);
-        if (on == 0 && off == 0)
-            return false;
-        if (on >= ratio * off) {
-            swap(n, a, j, diagonal);
-            *negative += a[j * n + j] < 0;
-            pivot_one(n, j, a);
-            j++;
-        } else {
-            swap(n, a, j, column);
-            swap(n, a, j + 1, row);
-            *negative += 1;
-            pivot_two(n, j, a);
-            j += 2;
-        }
-    }
-    return true;
-}
-
 /* ---- one element ---- */
 
 /* The local functions in the order in which they go: what belongs to this element alone, then the
  * displacements of its first node, the rotations that it shares. Forces come last. */
 typedef struct {
-    int functions[2 * 256]; /* rotation k: k; strain k: -1 - k */
-    int inner, count;       /* own; with shared rotations */
-    bool left, right;       /* whether those rotations are shared */
-    int displaced;          /* components of its first node: 0 at end 1 */
+    int functions[2 * POINTS_MAX]; /* rotation k: k; strain k: -1 - k */
+    int inner, count;              /* own; with shared rotations */
+    bool left, right;              /* whether those rotations are shared */
+    int displaced;                 /* components of its first node: 0 at end 1 */
 } layout;
 
 static void lay_out(const motion *m, int index, layout *l)
@@ -190,8 +93,9 @@ static void displacements(const counter *c, const motion_element *e, const layou
     const motion *m = c->m;
     const int n = e->rule->points, rows = n * m->components, columns = l->count + l->displaced;
     double *x = c->room, *z = x + (size_t)n * columns;
-    linalg_multiply('N', 'N', n, l->count, n, e->rule->integral, n, c->slope[0], n, x, n);
-    if (m->components == 2)
+    if (l->count > 0)
+        linalg_multiply('N', 'N', n, l->count, n, e->rule->integral, n, c->slope[0], n, x, n);
+    if (l->count > 0 && m->components == 2)
         linalg_multiply('N', 'N', n, l->count, n, e->rule->integral, n, c->slope[1], n, z, n);
     for (int d = 0; d < l->displaced; d++)
         for (int q = 0; q < n; q++) {
@@ -282,8 +186,10 @@ static strum_status element_matrix(const counter *c, int index, const layout *l,
     slopes(c, e, l);
     displacements(c, e, l);
     memset(c->matrix, 0, (size_t)size * (size_t)size * sizeof *c->matrix);
-    const strum_status status =
-        linalg_gram(columns, n * parts, c->displacement, n * parts, gram, columns, w);
+    /* what lies, does not stretch and begins at end 1 has no unknowns */
+    const strum_status status = columns == 0 ? STRUM_OK
+                                             : linalg_gram(columns, n * parts, c->displacement,
+                                                           n * parts, gram, columns, w);
     if (status != STRUM_OK)
         return status;
     for (int f = 0; f < columns; f++)
@@ -425,7 +331,7 @@ static void join(counter *c, int index, const layout *l, int size)
     for (int i = 0; i < parts; i++)
         add_pair(&s, displaced + left + held + i, gone + i, 1);
     c->multipliers += parts;
-    c->safe = eliminate_few(s.n, gone, s.a, &c->negative) && c->safe;
+    c->safe = pivots_eliminate_few(s.n, gone, s.a, &c->negative) && c->safe;
     for (int i = 0; i < keep; i++)
         for (int j = 0; j < keep; j++)
             c->front[i * 3 + j] = s.a[(gone + i) * s.n + gone + j];
@@ -439,7 +345,7 @@ static void finish(counter *c)
         for (int j = 0; j <= i; j++)
             add_pair(&s, i, j, c->front[i * 3 + j]);
     add_held(c, node, 0, parts, &s);
-    c->safe = eliminate_few(s.n, s.n, s.a, &c->negative) && c->safe;
+    c->safe = pivots_eliminate_few(s.n, s.n, s.a, &c->negative) && c->safe;
 }
 
 static strum_status begin(const stiffness *k, double s, arena *scratch, counter *c)
@@ -481,7 +387,7 @@ static strum_status count_all(const stiffness *k, double s, arena *scratch, long
             status = element_matrix(&c, i, &l, &size, scratch->work);
         if (status != STRUM_OK)
             break;
-        c.safe = eliminate(size, l.inner, c.matrix, &c.negative) && c.safe;
+        c.safe = pivots_eliminate(size, l.inner, c.matrix, &c.negative) && c.safe;
         join(&c, i, &l, size);
     }
     if (status != STRUM_OK)

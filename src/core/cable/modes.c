@@ -29,6 +29,46 @@ static bool next_stretch(const strum_hanging *cable, motion_choice *c)
     return i > c->first_piece;
 }
 
+/* Tension below this share of the largest is none. */
+#define SLACK 1e-9
+
+/* Smallest tension of what hangs without bending stiffness in its shape, over the largest. */
+static double least_tension(const strum_hanging *cable)
+{
+    double least = HUGE_VAL, most = 0;
+    for (size_t i = 0; i < cable->piece_count; i++) {
+        const cable_piece *p = cable->pieces + i;
+        if (p->lies)
+            continue;
+        const double v = p->v + p->section->weight * p->length;
+        const double low = p->v * v < 0 ? fabs(p->h) : fmin(hypot(p->h, p->v), hypot(p->h, v));
+        least = fmin(least, low);
+        most = fmax(most, fmax(hypot(p->h, p->v), hypot(p->h, v)));
+    }
+    return most > 0 ? least / most : HUGE_VAL;
+}
+
+static strum_status check_shape(const strum_hanging *cable, const strum_cable_modes_params *p,
+                                strum_error *error)
+{
+    bool hangs = false;
+    for (size_t i = 0; i < cable->piece_count; i++)
+        hangs = hangs || !cable->pieces[i].lies;
+    if (cable->params.spans > 1 && cable->rod != NULL)
+        return error_set(error, STRUM_ERR_METHOD,
+                         "modes of several spans need the static shape without bending "
+                         "stiffness (statics flexible)");
+    if (!hangs && p->contact == STRUM_CABLE_HELD)
+        return error_set(error, STRUM_ERR_IMPOSSIBLE,
+                         "all of the cable lies on the bed and is held: nothing moves");
+    /* a rod may be compressed: its stiffness matrix says whether it is stable */
+    if (cable->rod == NULL && least_tension(cable) < SLACK)
+        return error_set(error, STRUM_ERR_IMPOSSIBLE,
+                         "the cable has no tension at a point where it hangs: it has no small "
+                         "linear motion");
+    return STRUM_OK;
+}
+
 static strum_status solve_stretches(const strum_hanging *cable,
                                     const strum_cable_modes_params *p, strum_cable_modes *modes)
 {
@@ -113,14 +153,9 @@ strum_status strum_cable_modes_solve(const strum_hanging *cable,
     if (params->count < 1 || params->count > STRUM_CABLE_MODES_MAX)
         return error_at(error, STRUM_ERR_RANGE, STRUM_CABLE_ARG_COUNT, STRUM_NO_INDEX,
                         "the number of modes must be between 1 and %d", STRUM_CABLE_MODES_MAX);
-    /* a rod may be compressed: its stiffness matrix says whether it is stable */
-    if (cable->rod == NULL && !(cable->statics.tension_min > 0) && !cable->statics.slack)
-        return error_set(error, STRUM_ERR_IMPOSSIBLE,
-                         "the cable has no tension at a point: it has no small linear motion");
-    if (cable->params.spans > 1 && cable->rod != NULL)
-        return error_set(error, STRUM_ERR_METHOD,
-                         "modes of several spans need the static shape without bending "
-                         "stiffness (statics flexible)");
+    const strum_status possible = check_shape(cable, params, error);
+    if (possible != STRUM_OK)
+        return possible;
     strum_cable_modes *made = calloc(1, sizeof *made);
     if (made == NULL)
         return error_set(error, STRUM_ERR_MEMORY, "%s", strum_status_text(STRUM_ERR_MEMORY));
@@ -139,6 +174,9 @@ strum_status strum_cable_modes_solve(const strum_hanging *cable,
     made->memory.work = NULL;
     if (status != STRUM_OK) {
         strum_cable_modes_free(made);
+        if (status == STRUM_ERR_IMPOSSIBLE)
+            return error_set(error, status,
+                             "the static shape is not stable, or nothing of the cable moves");
         return work_result(&w, status, error);
     }
     *modes = made;

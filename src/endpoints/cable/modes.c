@@ -15,7 +15,7 @@ typedef struct request {
     hung_input in;
     int plane, contact;
     int64_t modes, shape_points;
-    bool compare;
+    bool compare, verify;
 } request;
 
 static const field fields[] = {
@@ -32,6 +32,8 @@ static const field fields[] = {
              "length, ends included; 0: none, else at least 2"},
     {FIELD_AT(FIELD_FLAG, request, compare), .flags = FIELD_DEFAULT,
      .help = "put the simpler theories beside the answer, with differences"},
+    {FIELD_AT(FIELD_FLAG, request, verify), .flags = FIELD_DEFAULT,
+     .help = "check the answer by a second, independent method"},
     {.kind = FIELD_END}};
 static const field_groups groups[] = {HUNG_GROUPS, {0}};
 
@@ -78,7 +80,7 @@ static double cost_us(const void *data)
     double plane = (350 + 250 * modes * (1 + pow(modes / 60, 3))) * (0.75 + 0.25 * pieces) *
                    (double)p->spans;
     plane *= (p->stiff ? 2 : 1) * (p->bed.present ? 8 : 1) * (drags(p) ? 10 : 1);
-    plane *= r->compare ? 4 : 1;
+    plane *= (r->compare ? 4 : 1) + (r->verify ? 4 : 0);
     return hung_cost_us(&r->in, (size_t)r->shape_points) +
            (double)plane_count(r) * (plane + 1.7 * modes * (double)r->shape_points);
 }
@@ -143,11 +145,12 @@ static strum_status write_result(const request *r, const strum_hanging *cable,
     strum_status status = hung_write(&r->in, cable, (size_t)r->shape_points, a->result);
     if (status == STRUM_OK)
         status = motion_write(found, (size_t)r->shape_points, a->result);
-    if (status == STRUM_OK && r->compare) {
-        const strum_options options = answer_options(a);
+    const strum_options options = answer_options(a);
+    if (status == STRUM_OK && r->compare)
         status = comparison_write(&r->in, cable, found, (size_t)r->modes, &options, a->result,
                                   error);
-    }
+    if (status == STRUM_OK && r->verify)
+        status = motion_verify(found, &options, a, error);
     json_close_object(a->result);
     return status;
 }

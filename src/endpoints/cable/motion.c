@@ -193,6 +193,35 @@ double motion_bytes(size_t modes, size_t shape_points)
     return (double)modes * (double)shape_points * ((double)keys + 2 * ANSWER_NUMBER_BYTES);
 }
 
+strum_status motion_verify(const motion planes[2], const strum_options *options, answer *a,
+                           strum_error *error)
+{
+    strum_verification worst = {.method = NULL};
+    for (int plane = 0; plane < 2; plane++) {
+        strum_verification v;
+        if (planes[plane].modes == NULL)
+            continue;
+        const strum_status status =
+            strum_cable_modes_verify(planes[plane].modes, options, &v, error);
+        if (status == STRUM_ERR_ACCURACY) {
+            answer_warn(a, "not verified %s: %s",
+                        plane == STRUM_IN_PLANE ? "in plane" : "out of plane", error->reason);
+            continue;
+        }
+        if (status != STRUM_OK)
+            return status;
+        worst.method = v.method;
+        worst.max_relative_difference =
+            fmax(worst.max_relative_difference, v.max_relative_difference);
+        worst.max_residual = fmax(worst.max_residual, v.max_residual);
+        worst.modes_expected += v.modes_expected;
+        worst.modes_found += v.modes_found;
+    }
+    if (worst.method != NULL)
+        put_verification(a->result, &worst);
+    return STRUM_OK;
+}
+
 /* ---- warnings ---- */
 
 bool motion_acts(strum_cable_direction direction, strum_plane plane)

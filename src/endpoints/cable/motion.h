@@ -17,6 +17,10 @@ typedef struct motion {
 void motion_free(motion planes[2]);
 /* The members in_plane, out_of_plane, overdamped and count of an open object. */
 strum_status motion_write(const motion planes[2], size_t shape_points, json_writer *json);
+/* The member "verification": each plane by the core's second method, the worse of both. Where that
+ * method cannot reach a cable, a warning says so instead. */
+strum_status motion_verify(const motion planes[2], const strum_options *options, answer *a,
+                           strum_error *error);
 /* Does a link of this direction act in the plane? */
 bool motion_acts(strum_cable_direction direction, strum_plane plane);
 /* Of links that do not act, and of held and sliding modes that differ. */
