@@ -2,7 +2,7 @@
 /* A form from a request's schema. Every control is {node, get, set, fault, clear}: `get` gives undefined where nothing
  * is given; `fault(tokens, text)` shows a fault at the field that a JSON pointer leads to, and says whether it could. */
 import { freshId, h } from './dom.js';
-import { label, readComplex, readList, readNumber, readVariable, showComplex, showVariable } from './values.js';
+import { label, readComplex, readList, readNumber, readQuantity, readVariable, showComplex, showVariable } from './values.js';
 import { makeList } from './form_list.js';
 import { makeSlider } from './slider.js';
 
@@ -65,7 +65,7 @@ function placeholderOf(schema, show) {
 function textControl(name, schema, changed, { read, show, numeric }) {
   const input = h('input', { id: freshId('f'), type: 'text', autocomplete: 'off', spellcheck: 'false', inputmode: numeric ? 'decimal' : undefined,
     placeholder: placeholderOf(schema, show) });
-  const slider = numeric ? makeSlider(schema, label(name, schema['x-unit']), () => readNumber(input.value) ?? schema.default, (value) => {
+  const slider = numeric ? makeSlider(schema, label(name, schema['x-unit']), () => readQuantity(input.value, schema['x-unit']) ?? schema.default, (value) => {
     input.value = String(value);
     around.follow();
     changed();
@@ -157,7 +157,7 @@ function makeControl(name, schema, changed) {
   if (schema.enum) return choiceControl(name, schema, changed);
   if (schema.type === 'boolean') return flagControl(name, schema, changed);
   if (schema.type === 'number' || schema.type === 'integer') {
-    return textControl(name, schema, changed, { read: readNumber, show: String, numeric: true });
+    return textControl(name, schema, changed, { read: (text) => readQuantity(text, schema['x-unit']), show: String, numeric: true });
   }
   if (schema.oneOf) return textControl(name, schema, changed, { read: readVariable, show: showVariable });
   return textControl(name, schema, changed, { read: (text) => text.trim() || undefined, show: String });

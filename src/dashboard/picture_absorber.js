@@ -52,8 +52,9 @@ function compared(answer, kept, ...how) {
 
 export const absorber = {
   slow: true,
-  hint: ({ result }) => (result.sweep ? '' : 'A sweep over one of the variables draws every branch of damping, with the optimum on it.'),
+  hint: ({ result }) => (result.sweep || result.assessment ? '' : 'A sweep over one of the variables draws every branch of damping, with the optimum on it.'),
   headline: ({ result }) => [
+    result.assessment && { label: 'excited modes', value: result.excited_modes, unit: '', more: result.met === undefined ? '' : result.met ? 'all damped as required' : 'not all damped as required' },
     { label: 'damping ratio at the optimum', value: result.damping_ratio, unit: '', more: Object.entries(result.optimum ?? {}).map(([name, value]) => `${name} = ${brief(value)}`).join(', ') },
     result.required_damping_ratio !== undefined && { label: 'required against vortex-induced vibration', value: result.required_damping_ratio, unit: '', more: result.met ? 'met' : 'not met' },
   ].filter((one) => one && one.value !== undefined),

@@ -81,6 +81,8 @@ const presets = {
       variables: [{ name: 'R', min: 0.1, max: 200 }, { name: 'k', min: 1, max: 300 }], band_rad_per_s: [0.5, 7], sweep: { variable: 'R', points: 80 } }],
     ['Levesque: in-line absorber, damping for mode 3', { tension_N: 5000, components: [segment(25), inline(9, 0.12, { variable: 'R' }), segment(25)],
       variables: [{ name: 'R', min: 1000, max: 2000000 }], modes: [3], sweep: { variable: 'R', points: 80 } }],
+    ['Levesque: the hanging absorber as it is, in currents of 0.3 to 0.8 m/s', { tension_N: 5000, components: [segment(25), hanging(68.45, 15), segment(25)],
+      assess: true, current_m_per_s: [0.3, 0.8], required: { diameter_m: 0.02 } }],
   ],
 };
 

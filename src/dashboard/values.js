@@ -9,6 +9,43 @@ export function readNumber(text) {
   return Number.isFinite(number) ? number : typed;
 }
 
+/* What one of each is in metre, kilogram, second, radian, and its powers of them. */
+const INCH = 0.0254, POUND = 0.45359237, GRAVITY = 9.80665;
+const MEASURES = { m: [1, 1], mm: [1e-3, 1], cm: [1e-2, 1], km: [1e3, 1], in: [INCH, 1], ft: [12 * INCH, 1], kg: [1, 0, 1], g: [1e-3, 0, 1],
+  t: [1e3, 0, 1], lb: [POUND, 0, 1], s: [1, 0, 0, 1], ms: [1e-3, 0, 0, 1], N: [1, 1, 1, -2], kN: [1e3, 1, 1, -2], MN: [1e6, 1, 1, -2],
+  kgf: [GRAVITY, 1, 1, -2], lbf: [POUND * GRAVITY, 1, 1, -2], kip: [1e3 * POUND * GRAVITY, 1, 1, -2], Hz: [2 * Math.PI, 0, 0, -1, 1],
+  rad: [1, 0, 0, 0, 1], deg: [Math.PI / 180, 0, 0, 0, 1] };
+
+/* "kN/m", "N*s/m^2" as a factor and powers; undefined where a word in it is no unit. */
+function measure(unit) {
+  const sum = { factor: 1, powers: [0, 0, 0, 0] };
+  for (const [part, words] of unit.split('/').entries()) {
+    const sign = part ? -1 : 1;
+    for (const word of words.split(/[*\u00b7 ]+/)) {
+      const [, name, power] = word.match(/^([A-Za-z]+)\^?(\d?)$/) ?? [];
+      if (!Object.hasOwn(MEASURES, name ?? '')) return undefined;
+      const [factor, ...powers] = MEASURES[name], times = sign * Number(power || 1);
+      sum.factor *= factor ** times;
+      powers.forEach((one, i) => { sum.powers[i] += one * times; });
+    }
+  }
+  return sum;
+}
+
+/* A number as people write it: "99,5", and "3 MN" or "110 ft" for a field in `unit`. One comma before three digits may
+ * part thousands: that, and a unit of another quantity, goes to the daemon as typed. */
+export function readQuantity(text, unit) {
+  const typed = text.trim(), [, digits, given] = typed.match(/^([-+]?[\d.,]+(?:e[-+]?\d+)?)\s*([A-Za-z].*)?$/i) ?? [];
+  if (digits === undefined) return readNumber(text);
+  const comma = digits.includes(',') && !/^[-+]?[1-9]\d{0,2},\d{3}$/.test(digits) && /^[^.,]*,[^.,]*$/.test(digits);
+  const number = readNumber(comma ? digits.replace(',', '.') : digits);
+  if (typeof number === 'string') return typed;
+  if (!given) return number;
+  const from = measure(given.trim()), to = measure(unit ?? '');
+  if (!from || !to || String(from.powers) !== String(to.powers)) return typed;
+  return Number((number * (from.factor / to.factor)).toPrecision(15));
+}
+
 /* A number, or "R", "2*R", "-x + 50": a variable with scale and offset. */
 export function readVariable(text) {
   const plain = readNumber(text);

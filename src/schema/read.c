@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "schema/parts.h"
+#include "schema/units.h"
 
 /* Integers up to here are the ones a double holds without gaps. */
 #define INTEGER_MAX 9007199254740991.0
@@ -416,15 +417,42 @@ static bool read_field(reading *r, const field *f, const cJSON *item, const json
     return false;
 }
 
-static void unknown_member(reading *r, const schema *s, bool typed, const json_place *place)
+/* The row that is nearest to a name, never one of another quantity: a unit of another dimension
+ * rules it out, one of the same with the same quantity decides. */
+static const char *nearest_row(const schema *s, bool typed, const char *name,
+                               const name_unit *unit)
 {
-    nearest near = {.wanted = place->name};
-    for (int row = 0; s->fields[row].kind != FIELD_END && r->p->omitted == 0; row++)
-        nearest_try(&near, s->fields[row].name);
+    nearest near = {.wanted = name};
+    for (int row = 0; s->fields[row].kind != FIELD_END; row++) {
+        const name_unit other = unit_of_name(s->fields[row].name);
+        if (same_dimension(unit, &other) && strcmp(unit->quantity, other.quantity) == 0)
+            return s->fields[row].name;
+        if (!unit->known || !other.known || same_dimension(unit, &other))
+            nearest_try(&near, s->fields[row].name);
+    }
     if (typed)
         nearest_try(&near, "type");
-    if (near.name != NULL)
-        json_fault(r->p, place, "unknown field; did you mean %s?", near.name);
+    return near.name;
+}
+
+static void unknown_member(reading *r, const schema *s, bool typed, const cJSON *item,
+                           const json_place *place)
+{
+    if (r->p->omitted > 0) { /* nobody reads what is near */
+        json_fault(r->p, place, "unknown field");
+        return;
+    }
+    const name_unit given = unit_of_name(place->name);
+    const char *near = nearest_row(s, typed, place->name, &given);
+    const name_unit wanted = unit_of_name(near != NULL ? near : "");
+    const double factor = given.factor / wanted.factor;
+    const bool number = cJSON_IsNumber(item) && isfinite(item->valuedouble * factor);
+    const double value = number ? item->valuedouble : 1;
+    if (near != NULL && same_dimension(&given, &wanted) && strcmp(given.text, wanted.text) != 0)
+        json_fault(r->p, place, "unknown field; did you mean %s? %.12g %s is %.12g %s", near,
+                   value, given.text, value * factor, wanted.text);
+    else if (near != NULL)
+        json_fault(r->p, place, "unknown field; did you mean %s?", near);
     else
         json_fault(r->p, place, "unknown field");
 }
@@ -441,7 +469,7 @@ void read_members(reading *r, const schema *s, const cJSON *object, bool typed,
             continue;
         const int row = schema_row(s, member->string, hint);
         if (row < 0) {
-            unknown_member(r, s, typed, &at);
+            unknown_member(r, s, typed, member, &at);
             continue;
         }
         hint = row + 1;

@@ -2,6 +2,7 @@
 /* What is said of an optimum: the modes there, whether they suffice, the closed forms beside
  * it, a sweep. */
 #include "endpoints/absorber/answer.h"
+#include "endpoints/common/plausibility.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -84,18 +85,25 @@ static void write_search(json_writer *json, const absorber_request *r,
 }
 
 /* S_G = 8 pi^2 St^2 zeta m/(rho D^2)  [Griffin; Levesque 1-2, 4-1], solved for zeta. */
-static void write_required(json_writer *json, const absorber_request *r,
-                           const strum_absorber_optimum *best)
+double absorber_required_ratio(const absorber_request *r, const double *values)
 {
     if (!FIELD_GIVEN(&absorber_schema, r, required))
-        return;
-    const chain_variables x = {r->names, best->values, r->variables.count};
+        return NAN;
+    const chain_variables x = {r->names, values, r->variables.count};
     const absorber_required *q = &r->required;
     const double mass = chain_mean_mass(&r->in, &x);
     if (!(mass > 0))
+        return NAN;
+    return q->reduced_damping * q->fluid_kg_per_m3 * q->diameter_m * q->diameter_m /
+           (8 * M_PI * M_PI * q->strouhal * q->strouhal * mass);
+}
+
+static void write_required(json_writer *json, const absorber_request *r,
+                           const strum_absorber_optimum *best)
+{
+    const double ratio = absorber_required_ratio(r, best->values);
+    if (isnan(ratio))
         return;
-    const double ratio = q->reduced_damping * q->fluid_kg_per_m3 * q->diameter_m *
-                         q->diameter_m / (8 * M_PI * M_PI * q->strouhal * q->strouhal * mass);
     json_put_number(json, "required_damping_ratio", ratio);
     json_put_flag(json, "met", best->damping_ratio >= ratio);
 }
@@ -167,6 +175,7 @@ static strum_status write_closed_forms(json_writer *json, absorber_solving *s,
         const double share = sin((double)mode * M_PI * left.length / length);
         const double ratio = part.mass / (rho * length / 2) * share * share;
         if (part.absorber && ratio > 0) {
+            warn_of_tuning(fmin(left.length, right.length) / length, s->a);
             const strum_absorber_form h =
                 strum_absorber_den_hartog(part.mass, ratio, (double)mode * first);
             const strum_absorber_form c =

@@ -5,6 +5,8 @@
 #include <stdio.h>
 
 #include "endpoints/absorber/answer.h"
+#include "endpoints/absorber/assess.h"
+#include "endpoints/common/plausibility.h"
 
 /* Damping ratios from here on, and distances from a border, that call for a word. */
 #define NO_LONGER_OSCILLATES 0.999
@@ -61,11 +63,19 @@ static bool respond(const void *data, answer *a)
     a->theory = "exact transfer matrices of the chain (Levesque 1997), max-min of the damping "
                 "ratio over all "
                 "modes that were asked for";
+    warn_chain(&r->in, a);
     absorber_begin(&s, r, a);
+    if (r->assess) {
+        a->theory = "exact transfer matrices of the chain (Levesque 1997); required damping by "
+                    "Griffin's reduced damping";
+        return absorber_assess(&s);
+    }
     const strum_status status = solve(&s, &best, &roots, &late, &error);
     if (status != STRUM_OK) {
         strum_taut_roots_free(roots);
         chain_refuse(&error, status, a->problem);
+        if (status == STRUM_ERR_IMPOSSIBLE && !answer_cancelled(a))
+            absorber_explain(&s);
         return false;
     }
     if (late) {

@@ -48,8 +48,12 @@ static const field fields[] = {
     CHAIN_FIELDS,
     CHAIN_END_FIELDS,
     {FIELD_AT(FIELD_OBJECTS, absorber_request, variables), .schema = &variable_row,
-     .min_items = 1, .max_items = STRUM_ABSORBER_VARIABLES_MAX, .flags = FIELD_REQUIRED,
+     .min_items = 1, .max_items = STRUM_ABSORBER_VARIABLES_MAX,
      .help = "what may vary, within which bounds"},
+    {FIELD_AT(FIELD_FLAG, absorber_request, assess),
+     .help =
+         "true: nothing varies; each mode of the chain as it is, its damping beside what is "
+         "required"},
     {FIELD_AT(FIELD_NUMBERS, absorber_request, modes), .min = 1, .max = STRUM_TAUT_MODE_MAX,
      .min_items = 1, .max_items = STRUM_ABSORBER_MODES_MAX,
      .flags = FIELD_WHOLE | FIELD_ASCENDING,
@@ -75,7 +79,9 @@ static const field fields[] = {
 
 static const char *const excited[] = {"modes", "band_rad_per_s", "current_m_per_s +required",
                                       NULL};
-static const field_groups groups[] = {{"excited modes", false, excited}, {0}};
+static const char *const asked[] = {"variables [assess]", "assess", NULL};
+static const field_groups groups[] = {
+    {"excited modes", false, excited}, {"task", false, asked}, {0}};
 
 const schema absorber_schema = {.name = "absorber_optimize_request",
                                 .fields = fields,
@@ -117,6 +123,14 @@ static void check_variables(const absorber_request *r, problem *p)
     const absorber_variable *all = r->variables.items;
     char pointer[64];
     schema_variables(&absorber_schema, r, see, &n);
+    if (r->assess && r->variables.count > 0)
+        problem_add(p, "/assess",
+                    "cannot be true beside variables: a chain is assessed as it is");
+    if (r->assess && FIELD_GIVEN(&absorber_schema, r, sweep))
+        problem_add(p, "/sweep", "needs variables; with assess nothing varies");
+    if (!r->assess && FIELD_GIVEN(&absorber_schema, r, assess) && r->variables.count == 0)
+        problem_add(p, "/assess",
+                    "is false: give variables, or true to assess the chain as it is");
     for (size_t i = 0; i < r->variables.count; i++) {
         (void)snprintf(pointer, sizeof pointer, "/variables/%zu/max", i);
         if (!(all[i].min < all[i].max))
@@ -180,6 +194,8 @@ double absorber_cost_us(const void *data)
     const chain_variables lowest = {r->names, r->low, r->variables.count};
     strum_taut *chain;
     double work = 1100 * (double)r->sweep.points + 1.7 * (double)r->max_evaluations;
+    if (r->assess)
+        work = 2000 + 4000 * (double)r->modes.count;
     if (r->modes.count > 0) { /* each is followed from zero damping, past those below it */
         double highest = 0;
         for (size_t i = 0; i < r->modes.count; i++)
@@ -190,6 +206,7 @@ double absorber_cost_us(const void *data)
         const double modes = (double)strum_taut_count(chain, r->band[1]) -
                              (double)strum_taut_count(chain, r->band[0]);
         strum_taut_free(chain);
+        work += r->assess ? 4000 * modes : 0;
         work += modes * variables * (520 * variables + 780 * modes);
     }
     return fmin(work, 120.0 * (double)r->max_evaluations);

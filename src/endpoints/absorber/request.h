@@ -28,6 +28,7 @@ typedef struct absorber_request {
     chain_input in;
     objects_value variables; /* of absorber_variable */
     numbers_value modes, band_rad_per_s, current_m_per_s;
+    bool assess;
     int objective;
     absorber_required required;
     absorber_sweep sweep;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "endpoints/catenary/comparison.h"
+#include "endpoints/common/plausibility.h"
 
 enum { PLANE_IN, PLANE_OUT, PLANE_BOTH };
 static const char *const planes[] = {"in_plane", "out_of_plane", "both", NULL};
@@ -361,6 +362,11 @@ static bool answer_modes(const void *data, answer *a)
     }
     a->theory = theory(r);
     cable_warn(&r->in, a);
+    warn_suspended(&r->in, a);
+    if (asks(r, STRUM_IN_PLANE)) {
+        warn_without_stretch(&r->in, a);
+        warn_added_mass(r->in.added_mass_kg_per_m, r->in.mass_kg_per_m, turn_of(&r->in), a);
+    }
     json_writer *json = a->result;
     json_open_object(json);
     cable_write_geometry(json, &r->in);
@@ -376,8 +382,11 @@ static bool answer_modes(const void *data, answer *a)
             "(the first such point where tied)");
     if (good && r->method == METHOD_SERIES)
         write_series(json, found);
-    if (good && r->compare)
+    if (good && r->compare) {
         write_comparison(json, &r->in, found);
+        if (asks(r, STRUM_IN_PLANE))
+            warn_of_crossover(strum_catenary_sag(&r->in.catenary) / r->in.catenary.span, a);
+    }
     if (good && r->verify)
         good = write_verification(json, &r->in, found, a);
     json_close_object(json);

@@ -152,6 +152,20 @@ static double unstretched_length(const cable_input *in)
     return in->length_m > 0 ? in->length_m : in->catenary.length * in->a_m;
 }
 
+/* One mass in both conventions of "per metre": the one given is per unstretched metre where the
+ * profile is elastic, else per metre of the hanging cable. Weight per length goes alike. */
+static void write_masses(json_writer *json, const cable_input *in)
+{
+    const double length = in->length_m > 0 ? in->length_m : in->catenary.length * in->a_m;
+    const double share = length / unstretched_length(in), mass = in->mass_kg_per_m;
+    if (in->cable.kappa_t == 0)
+        return;
+    json_put_number(json, "mass_per_unstretched_length_kg_per_m",
+                    in->elastic_profile ? mass : mass * share);
+    json_put_number(json, "mass_per_stretched_length_kg_per_m",
+                    in->elastic_profile ? mass / share : mass);
+}
+
 void cable_write_geometry(json_writer *json, const cable_input *in)
 {
     const strum_catenary *c = &in->catenary;
@@ -187,6 +201,7 @@ void cable_write_geometry(json_writer *json, const cable_input *in)
         json_put_number(json, "horizontal_tension_N", in->tension_N);
         json_put_number(json, "tension_1_N", in->tension_N * cosh(chi_1));
         json_put_number(json, "tension_2_N", in->tension_N * cosh(chi_2));
+        write_masses(json, in);
     }
     if (in->solutions > 0)
         json_put_integer(json, "solutions", in->solutions);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "endpoints/common/plausibility.h"
 #include "endpoints/forced/answer.h"
 
 /* Frequencies of a curve that `verify` recomputes, besides all profiles. */
@@ -14,6 +15,10 @@ typedef struct solving {
     strum_forced *forced;
     strum_response *responses[FORCED_HARMONICS_MAX];
     strum_resonance at; /* the resonance that was met */
+    /* The highest peak of the curve, where it is, the frequencies beside it; 0: none so far. */
+    double tallest, tallest_at, before, after;
+    double resonance; /* beside that peak, narrower than the steps; NAN: none */
+    double slack_at;  /* the first frequency whose peak exceeds the static tension; NAN: none */
 } solving;
 
 static void solving_free(solving *s)
@@ -27,7 +32,7 @@ static bool solving_make(solving *s, const forced_request *r, const answer *a)
 {
     problem *p = a->problem;
     strum_error fault = {0};
-    *s = (solving){.r = r};
+    *s = (solving){.r = r, .slack_at = NAN, .resonance = NAN};
     const strum_forced_params params = {r->in.cable, r->highest / r->in.ratio, r->in_plane,
                                         r->out_of_plane};
     const strum_options options = answer_options(a);
@@ -77,7 +82,19 @@ static void write_unbounded(json_writer *json, const solving *s)
         "motion grows without limit, and there is no steady amplitude");
 }
 
-static strum_status write_peak(json_writer *json, const solving *s, double frequency_ratio)
+/* Dynamic tension beyond the static one, in H cosh(chi) where the cable hangs: no longer taut. */
+static void keep_peak(solving *s, double frequency_ratio, double tension, double chi,
+                      bool tensile)
+{
+    if (tension > s->tallest) {
+        s->tallest = tension;
+        s->tallest_at = frequency_ratio;
+    }
+    if (isnan(s->slack_at) && !tensile && tension > cosh(chi))
+        s->slack_at = frequency_ratio;
+}
+
+static strum_status write_peak(json_writer *json, solving *s, double frequency_ratio)
 {
     const forced_request *r = s->r;
     double tension, chi;
@@ -92,6 +109,7 @@ static strum_status write_peak(json_writer *json, const solving *s, double frequ
         json_put_number(json, "max_dynamic_tension", tension);
         json_put_number(json, "at_chi", chi);
         json_put_flag(json, "tensile", peak.tension >= 0);
+        keep_peak(s, frequency_ratio, tension, chi, peak.tension >= 0);
         json_put_number(json, "at_time_to_period", peak.phase / (2 * M_PI));
         if (r->in.rad_per_s > 0)
             put_finite(json, "at_time_s", peak.phase / (frequency_ratio * r->in.rad_per_s));
@@ -102,6 +120,7 @@ static strum_status write_peak(json_writer *json, const solving *s, double frequ
         chi = peak.chi;
         json_put_number(json, "max_dynamic_tension", tension);
         json_put_number(json, "at_chi", chi);
+        keep_peak(s, frequency_ratio, tension, chi, false);
         if (cable_damped(&r->in))
             json_put_number(json, "phase_deg", degrees(peak.phase));
     }
@@ -250,6 +269,51 @@ static bool drives(const forced_request *r, int i, strum_plane plane)
     return moves || !forced_periodic(r);
 }
 
+/* The frequencies of the curve next below and above its highest peak. */
+static void find_neighbours(solving *s)
+{
+    s->before = -INFINITY;
+    s->after = INFINITY;
+    for (int i = 0; i < forced_frequency_count(s->r); i++) {
+        const double frequency = forced_frequency_at(s->r, i);
+        if (frequency < s->tallest_at)
+            s->before = fmax(s->before, frequency);
+        else if (frequency > s->tallest_at)
+            s->after = fmin(s->after, frequency);
+    }
+}
+
+/* A resonance narrower than the curve's steps beside its highest peak. Half the width of a peak at
+ * half its power is the decay. */
+static void keep_resonance(solving *s, double forcing, double decay)
+{
+    const double step =
+        forcing < s->tallest_at ? s->tallest_at - s->before : s->after - s->tallest_at;
+    const double distance = fabs(forcing - s->tallest_at);
+    if (forced_frequency_count(s->r) > 2 && s->tallest > 0 && isfinite(step) &&
+        distance < step && decay < 0.5 * step &&
+        !(distance >= fabs(s->resonance - s->tallest_at)))
+        s->resonance = forcing;
+}
+
+static void warn_of_curve(const solving *s, answer *a)
+{
+    if (s->slack_at >= 0)
+        answer_warn(a,
+                    "at frequency_ratio %.6g the dynamic tension exceeds the static tension: "
+                    "the cable would go slack, which linear dynamics do not know",
+                    s->slack_at);
+    if (s->resonance >= 0)
+        answer_warn(
+            a,
+            "the highest peak of the curve, %.4g at frequency_ratio %.6g, stands beside a "
+            "resonance at %.9g that is narrower than the steps: its height depends on how near "
+            "a frequency of the curve lies to it; %s",
+            s->tallest, s->tallest_at, s->resonance,
+            cable_damped(&s->r->in) ? "take smaller steps there"
+                                    : "without damping it has no limit");
+}
+
 static bool on_curve(const forced_request *r, double frequency_ratio)
 {
     return r->curve_min <= frequency_ratio && frequency_ratio <= r->curve_max;
@@ -257,13 +321,16 @@ static bool on_curve(const forced_request *r, double frequency_ratio)
 
 /* One natural frequency, once for every multiple of a forcing frequency in the range that meets
  * it. `strength` is negative where it has no meaning. */
-static void write_resonance(json_writer *json, const forced_request *r,
-                            const strum_resonance *at, double decay, double strength)
+static void write_resonance(json_writer *json, solving *s, const strum_resonance *at,
+                            double decay, double strength)
 {
+    const forced_request *r = s->r;
     for (int i = 0; i < r->motion_count; i++) {
         const double forcing = at->frequency * r->in.ratio / r->multiples[i];
         if (!on_curve(r, forcing) || !drives(r, i, at->plane))
             continue;
+        if (strength != 0)
+            keep_resonance(s, forcing, decay * r->in.ratio / r->multiples[i]);
         json_open_object(json);
         json_put_string(json, "plane", plane_keys[at->plane]);
         json_put_integer(json, "mode", at->mode);
@@ -281,9 +348,10 @@ static void write_resonance(json_writer *json, const forced_request *r,
 
 /* The damped modes up to the highest frequency, at least; damping lowers frequencies and
  * changes their number. Where they cannot be found the curve stands without them. */
-static strum_status write_damped_resonances(json_writer *json, const forced_request *r,
-                                            strum_plane plane, answer *a)
+static strum_status write_damped_resonances(json_writer *json, solving *s, strum_plane plane,
+                                            answer *a)
 {
+    const forced_request *r = s->r;
     strum_modes *spectrum = NULL;
     const strum_options options = answer_options(a);
     strum_error fault = {0};
@@ -313,7 +381,7 @@ static strum_status write_damped_resonances(json_writer *json, const forced_requ
                                     .plane = plane,
                                     .mode = (int)i + 1,
                                     .symmetry = mode.symmetry};
-        write_resonance(json, r, &at, mode.decay, -1);
+        write_resonance(json, s, &at, mode.decay, -1);
     }
     strum_modes_free(spectrum);
     return STRUM_OK;
@@ -321,20 +389,21 @@ static strum_status write_damped_resonances(json_writer *json, const forced_requ
 
 /* With damping the oscillating modes with their decays, without it the natural frequencies with
  * how strongly the motion drives each. */
-static strum_status write_resonances(json_writer *json, const forced_request *r,
-                                     const strum_resonance *list, int count, answer *a)
+static strum_status write_resonances(json_writer *json, solving *s, const strum_resonance *list,
+                                     int count, answer *a)
 {
+    const forced_request *r = s->r;
     strum_status status = STRUM_OK;
     json_key(json, "resonances");
     json_open_array(json);
     if (cable_damped(&r->in)) {
         if (r->in_plane)
-            status = write_damped_resonances(json, r, STRUM_IN_PLANE, a);
+            status = write_damped_resonances(json, s, STRUM_IN_PLANE, a);
         if (r->out_of_plane && status == STRUM_OK)
-            status = write_damped_resonances(json, r, STRUM_OUT_OF_PLANE, a);
+            status = write_damped_resonances(json, s, STRUM_OUT_OF_PLANE, a);
     } else {
         for (int i = 0; i < count; i++)
-            write_resonance(json, r, &list[i], 0, forced_periodic(r) ? -1 : list[i].residue);
+            write_resonance(json, s, &list[i], 0, forced_periodic(r) ? -1 : list[i].residue);
     }
     json_close_array(json);
     return status;
@@ -445,14 +514,33 @@ static strum_status write_answer(json_writer *json, solving *s, answer *a, strum
         return STRUM_ERR_MEMORY;
     const int count = (int)found;
     strum_status status = write_curve(json, s, a);
+    find_neighbours(s);
     if (status == STRUM_OK)
-        status = write_resonances(json, r, list, count, a);
+        status = write_resonances(json, s, list, count, a);
     if (status == STRUM_OK && r->profiles_at.count > 0)
         status = write_profiles(json, s, a);
     if (status == STRUM_OK && r->verify)
         status = write_verification(json, s, list, count, a, fault);
     free(list);
+    if (status == STRUM_OK)
+        warn_of_curve(s, a);
     return status;
+}
+
+static void warn_of_input(const forced_request *r, answer *a)
+{
+    double amplitude = 0;
+    for (int i = 0; i < r->motion_count; i++) {
+        const strum_end_motion *m = &r->motions[i];
+        amplitude += hypot(hypot(cabs(m->tangential), cabs(m->normal)), cabs(m->out_of_plane));
+    }
+    cable_warn(&r->in, a);
+    warn_suspended(&r->in, a);
+    warn_motion(amplitude / r->in.catenary.span, a);
+    if (r->in_plane) {
+        warn_without_stretch(&r->in, a);
+        warn_added_mass(r->in.added_mass_kg_per_m, r->in.mass_kg_per_m, turn_of(&r->in), a);
+    }
 }
 
 bool forced_answer(const void *data, answer *a)
@@ -463,7 +551,7 @@ bool forced_answer(const void *data, answer *a)
     bool good = solving_make(&s, r, a);
     a->theory =
         "linear forced motion about the catenary (Gale 1976, 2.5), force Galerkin method";
-    cable_warn(&r->in, a);
+    warn_of_input(r, a);
     if (r->out_of_plane)
         answer_warn(
             a, "motion out of plane makes no dynamic tension to first order: see the profiles");

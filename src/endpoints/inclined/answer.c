@@ -4,14 +4,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "endpoints/common/suspended_cable.h"
+#include "endpoints/common/plausibility.h"
 #include "endpoints/inclined/request.h"
 
 /* Beyond it an expansion in epsilon errs by more than about a hundredth: 0.15 epsilon^2. */
 #define EPSILON_REACH 0.3
 /* A cable that its own tension stretches by more: the elastic statics shift frequencies by half
  * of it. */
-#define STRETCH_REACH 0.01
+#define STRETCH_REACH 0.002
 
 /* ---- the answer ---- */
 
@@ -216,8 +216,19 @@ static void warn_of_input(const inclined_request *r, answer *a)
     if (!r->cable.elastic_statics && stiffness * STRETCH_REACH < 1)
         answer_warn(a,
                     "the static tension stretches this cable by %.2g %%, which statics "
-                    "inextensible leaves out; statics elastic does not",
+                    "inextensible leaves out; statics elastic, and finite elements, do not: "
+                    "frequencies differ by about half of it",
                     100 / stiffness);
+    warn_strain(fmax(r->at_rest.tension_bottom, r->at_rest.tension_top) / stiffness, a);
+    warn_end_angle(1, r->at_rest.angle_bottom * 180 / M_PI, a);
+    warn_end_angle(2, r->at_rest.angle_top * 180 / M_PI, a);
+    if (r->tension > 0) {
+        const double steel = STEEL_SPECIFIC_STIFFNESS * r->mass_kg_per_m;
+        const double slope = r->cable.epsilon * cos(r->cable.inclination);
+        if (r->inextensible)
+            warn_inextensible(steel / r->tension * slope * slope, steel, a);
+        warn_added_mass(r->added_mass_kg_per_m, r->mass_kg_per_m, slope / 2, a);
+    }
 }
 
 /* `last`: the highest frequency of the answer. */

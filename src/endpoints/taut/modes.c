@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "endpoints/common/plausibility.h"
 #include "endpoints/common/chain.h"
 #include "endpoints/common/members.h"
 
@@ -527,6 +528,7 @@ static bool respond(const void *data, answer *a)
                           "from zero damping, certified by the argument principle"
                         : "taut chain by transfer matrices (Levesque 1997; Sergev and Iwan "
                           "1980): every mode by an exact shooting count";
+        warn_chain(&r->in, a);
         warn_sag(r, a);
         warn(r, roots, a);
         status = write_result(r, roots, a, &fault);

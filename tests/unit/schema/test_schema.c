@@ -218,6 +218,21 @@ static void every_fault_is_named_at_once(void **state)
                   ": expected an object with the fields of cable_request\n");
 }
 
+/* Factors by definition: 1 ft = 0.3048 m, 1 lb = 0.45359237 kg. */
+static void suggestions_know_units(void **state)
+{
+    (void)state;
+    expect_faults(&cable_schema, false,
+                  "{\"sag_parameter\": 0.5, \"span_ft\": 100, \"mass_lb_per_ft\": 2, "
+                  "\"mass_kg\": 5, \"span_mm\": [1, 2], \"mass_kg_per_s\": 1}",
+                  "/span_ft: unknown field; did you mean span_m? 100 ft is 30.48 m\n"
+                  "/mass_lb_per_ft: unknown field; did you mean mass_kg_per_m? 2 lb/ft is "
+                  "2.97632788714 kg/m\n"
+                  "/mass_kg: unknown field\n"
+                  "/span_mm: unknown field; did you mean span_m? 1 mm is 0.001 m\n"
+                  "/mass_kg_per_s: unknown field\n");
+}
+
 static void unknown_fields_get_a_suggestion(void **state)
 {
     (void)state;
@@ -601,6 +616,7 @@ int main(void)
         cmocka_unit_test(nested_structs_hold_what_was_given),
         cmocka_unit_test(every_fault_is_named_at_once),
         cmocka_unit_test(unknown_fields_get_a_suggestion),
+        cmocka_unit_test(suggestions_know_units),
         cmocka_unit_test(groups_are_explained),
         cmocka_unit_test(nested_faults_carry_full_pointers),
         cmocka_unit_test(endless_faults_are_counted),
