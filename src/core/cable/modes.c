@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "core/cable/spans.h"
+#include "core/cable/stretch.h"
 #include "core/numerics/status.h"
 
 /* ---- stretches that move by themselves ---- */
@@ -82,7 +83,7 @@ static strum_status solve_stretches(const strum_hanging *cable,
         return STRUM_ERR_MEMORY;
     choice.first_piece = choice.last_piece = 0;
     while (next_stretch(cable, &choice)) {
-        const strum_status status = spectrum_make(cable, &choice, &modes->memory,
+        const strum_status status = stretch_solve(cable, &choice, &modes->memory,
                                                   modes->stretches + modes->stretch_count);
         if (status != STRUM_OK)
             return status;

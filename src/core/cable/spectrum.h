@@ -25,11 +25,4 @@ typedef struct spectrum {
     double error;
 } spectrum;
 
-/* Memory is the arena's, whose work is asked. */
-strum_status spectrum_make(const strum_hanging *cable, const motion_choice *choice,
-                           arena *memory, spectrum *s);
-
-/* What the discretisation leaves, by the last coefficients; for spectrum_damped.c. */
-double spectrum_mesh_error(const motion *m, const double *v);
-
 #endif

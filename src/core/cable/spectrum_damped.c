@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/cable/inertia.h"
+#include "core/cable/mesh_error.h"
 #include "core/cable/winding.h"
 
 #define LEFT_OVER 3e-15 /* square, relative */
@@ -219,8 +220,7 @@ static strum_status keep(search *q)
     for (int i = 0; i < roots; i++) {
         double *re = vectors + 2 * (size_t)i * n, *im = re + n;
         expand(q, q->damped.roots + i, re, im);
-        const double error =
-            spectrum_mesh_error(&s->motion, re) + spectrum_mesh_error(&s->motion, im);
+        const double error = mesh_error(&s->motion, re) + mesh_error(&s->motion, im);
         s->modes[i] = (spectrum_mode){q->damped.roots[i].lambda, re, im, error};
         s->error = fmax(s->error, error);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/cable/spectrum.h"
+#include "core/cable/stretch.h"
 
 #include <float.h>
 #include <math.h>
@@ -7,6 +7,7 @@
 
 #include "core/cable/damped.h"
 #include "core/cable/inertia.h"
+#include "core/cable/mesh_error.h"
 #include "core/cable/spectrum_damped.h"
 
 /* Of a mode's error: what leaves the basis, squared, and the last coefficients on each element,
@@ -18,29 +19,6 @@
 #define ROUNDS      40
 
 /* ---- errors ---- */
-
-/* Squares of what the last two functions of each kind carry, over all elements; the stiffness
- * energy of the mode is 1. */
-double spectrum_mesh_error(const motion *m, const double *v)
-{
-    double sum = 0;
-    for (int i = 0; i < m->element_count; i++) {
-        const motion_element *e = m->elements + i;
-        const double tension = m->tension[e->point + e->rule->points / 2];
-        for (int k = 1; k <= 2 && k < e->strains; k++) {
-            const double last = v[e->strain + e->strains - k];
-            sum += last * last;
-        }
-        for (int k = 1; k <= 2 && k + 2 < e->rotations; k++) {
-            const int degree = e->rotations - k;
-            const double last = v[e->inner + e->rotations - 2 - k];
-            /* the integral of the orthonormal polynomial has the norm 1/degree */
-            sum += last * last *
-                   (e->bending / e->half + e->half * tension / ((double)degree * degree));
-        }
-    }
-    return sum;
-}
 
 /* sqrt(SUM (v_k tail_k)^2) over the vectors that were not multiplied yet. */
 static double basis_error(const krylov *b, const double *v, const double *tails)
@@ -96,7 +74,7 @@ static strum_status keep_undamped(const motion *m, const reduced *r, int count, 
         double *x = vectors + (size_t)i * n;
         expand(r->basis, v, x);
         const double mu = quotient(m, r, v, x, room);
-        const double error = spectrum_mesh_error(m, x);
+        const double error = mesh_error(m, x);
         s->modes[i] = (spectrum_mode){I / sqrt(mu), x, NULL, error};
         s->error = fmax(s->error, error);
     }
@@ -192,7 +170,7 @@ static strum_status attempt(const strum_hanging *cable, const motion_choice *cho
                                      : undamped(choice->modes, memory, s);
 }
 
-strum_status spectrum_make(const strum_hanging *cable, const motion_choice *choice,
+strum_status stretch_solve(const strum_hanging *cable, const motion_choice *choice,
                            arena *memory, spectrum *s)
 {
     motion_choice refined = *choice;
