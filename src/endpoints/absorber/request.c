@@ -54,9 +54,8 @@ static const field fields[] = {
      .min_items = 1, .max_items = STRUM_ABSORBER_MODES_MAX,
      .flags = FIELD_WHOLE | FIELD_ASCENDING,
      .help = "branches, numbered at zero damping and followed in damping"},
-    {FIELD_AT(FIELD_NUMBERS, absorber_request, band_rad_per_s), .unit = "rad/s", .min = 0,
-     .max = 1e9, .min_items = 2, .max_items = 2, .flags = FIELD_OPEN_MIN | FIELD_ASCENDING,
-     .help = "all modes in this band, however many, found anew at every trial"},
+    BAND_FIELDS(absorber_request, asked_band, 0, FIELD_OPEN_MIN,
+                "all modes in this band, however many, found anew at every trial"),
     {FIELD_AT(FIELD_NUMBERS, absorber_request, current_m_per_s), .unit = "m/s", .min = 0,
      .max = 1e3, .min_items = 2, .max_items = 2, .flags = FIELD_OPEN_MIN | FIELD_ASCENDING,
      .help = "currents whose vortices excite: the band 2 pi St U/D, with required.diameter_m"},
@@ -73,8 +72,8 @@ static const field fields[] = {
      .help = "the best so far is answered then, with a warning; a sweep has as long again"},
     {.kind = FIELD_END}};
 
-static const char *const excited[] = {"modes", "band_rad_per_s", "current_m_per_s +required",
-                                      NULL};
+static const char *const excited[] = {
+    "modes", "band_rad_per_s", "band_Hz", "band_s", "current_m_per_s +required", NULL};
 static const field_groups groups[] = {{"excited modes", false, excited}, {0}};
 
 const schema absorber_schema = {.name = "absorber_optimize_request",
@@ -159,8 +158,7 @@ void absorber_prepare(void *data, schema_arena *arena, problem *p)
         r->low[i] = all[i].min;
         r->high[i] = all[i].max;
     }
-    if (r->band_rad_per_s.count == 2)
-        memcpy(r->band, r->band_rad_per_s.items, sizeof r->band);
+    band_read(&r->asked_band, r->band);
     for (int i = 0; i < 2 && r->current_m_per_s.count == 2; i++)
         r->band[i] = 2 * M_PI * r->required.strouhal * r->current_m_per_s.items[i] /
                      r->required.diameter_m;

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Two ways of asking the same: frequencies in Hz, rad/s, s or the report's ratio, equal bodies by one entry, and so on. Their
+answers are the same but for the echo and roundings of what was converted."""
+import math
+
+import pytest
+
+
+def ask(strumd, path, request):
+    response = strumd.post(request, path)
+    assert response.status_code == 200, response.text
+    return response.json()
+
+
+def apart(one, other, place=""):
+    """The largest relative difference of two results, which have the same members."""
+    assert type(one) is type(other) or {type(one), type(other)} <= {int, float}, place
+    if isinstance(one, dict):
+        assert one.keys() == other.keys(), place
+        return max((apart(one[name], other[name], f"{place}/{name}") for name in one if name != "evaluations"), default=0)
+    if isinstance(one, list):
+        assert len(one) == len(other), place
+        return max((apart(a, b, f"{place}/{i}") for i, (a, b) in enumerate(zip(one, other))), default=0)
+    if isinstance(one, (int, float)) and not isinstance(one, bool):
+        return abs(one - other) / max(abs(one), 1e-9)
+    assert one == other, place
+    return 0
+
+
+def same(strumd, path, first, *others, relative=1e-12):
+    expected = ask(strumd, path, first)["result"]
+    for other in others:
+        answer = ask(strumd, path, other)
+        assert apart(expected, answer["result"]) <= relative, other
+        again = ask(strumd, path, answer["request"])  # the echo is the same question
+        assert again["meta"]["key"] == answer["meta"]["key"]
+
+
+CABLE = {"span_m": 100, "rise_m": 10, "length_m": 110, "mass_kg_per_m": 2, "axial_stiffness_N": 1e6}
+CHAIN = {"tension_N": 5000, "components": [{"type": "cable", "length_m": 30, "mass_kg_per_m": 2},
+                                           {"type": "point_mass", "mass_kg": 20},
+                                           {"type": "cable", "length_m": 20, "mass_kg_per_m": 2}]}
+FORCED, MODES, MATRIX = "/v1/forced/tension", "/v1/taut/modes", "/v1/taut/matrix"
+ABSORBER = "/v1/absorber/optimize"
+
+
+def test_forced_frequencies(strumd):
+    first = ask(strumd, FORCED, CABLE | {"frequency_ratios": [1, 2.5]})["result"]
+    unit = first["curve"][0]["angular_frequency_rad_per_s"]
+    at = [unit, 2.5 * unit]
+    same(strumd, FORCED, CABLE | {"frequency_ratios": [1, 2.5], "profiles_at": [2.5]},
+         CABLE | {"frequencies_Hz": [w / 2 / math.pi for w in at], "profiles_at": [2.5]},
+         CABLE | {"angular_frequencies_rad_per_s": at, "profiles_at_Hz": [at[1] / 2 / math.pi]},
+         CABLE | {"periods_s": [2 * math.pi / w for w in at], "profiles_at_s": [2 * math.pi / at[1]]},
+         CABLE | {"frequency_ratios": [1, 2.5], "profiles_at_rad_per_s": [at[1]]})
+    same(strumd, FORCED, CABLE | {"frequency_ratio_min": 1, "frequency_ratio_max": 2.5, "points": 4},
+         CABLE | {"frequency_min_Hz": at[0] / 2 / math.pi, "frequency_max_Hz": at[1] / 2 / math.pi, "points": 4},
+         CABLE | {"angular_frequency_min_rad_per_s": at[0], "angular_frequency_max_rad_per_s": at[1], "points": 4},
+         CABLE | {"period_min_s": 2 * math.pi / at[1], "period_max_s": 2 * math.pi / at[0], "points": 4})
+
+
+@pytest.mark.parametrize("path, more", [
+    (MODES, {}), (ABSORBER, {"variables": [{"name": "c", "min": 10, "max": 200}], "max_evaluations": 200})])
+def test_bands(strumd, path, more):
+    chain = {**CHAIN, "components": list(CHAIN["components"])}
+    if more:
+        chain["components"][1] = {"type": "damper", "damping_N_s_per_m": {"variable": "c"}}
+    low, high = 2 * math.pi * .25, 2 * math.pi * 2
+    same(strumd, path, {**chain, **more, "band_rad_per_s": [low, high]}, {**chain, **more, "band_Hz": [.25, 2]},
+         {**chain, **more, "band_s": [.5, 4]})
+
+
+def test_matrices(strumd):
+    same(strumd, MATRIX, CHAIN | {"angular_frequencies": [math.pi, 3]},
+         CHAIN | {"frequencies_Hz": [.5, 3 / 2 / math.pi]}, CHAIN | {"angular_frequencies_rad_per_s": [math.pi, 3]},
+         CHAIN | {"periods_s": [2, 2 * math.pi / 3]})
+
+
+@pytest.mark.parametrize("more, pointers", [
+    ({"frequency_min_Hz": 2, "frequency_max_Hz": 1}, ["/frequency_max_Hz"]),
+    ({"period_min_s": 2, "period_max_s": 1}, ["/period_max_s"]),
+    ({"frequencies_Hz": [1e8]}, ["/frequencies_Hz"]),
+    ({"frequencies_Hz": [1], "periods_s": [1]}, ["/periods_s"]),
+    ({"frequency_ratios": [1], "profiles_at_s": [1e-9]}, ["/profiles_at_s"])])
+def test_refused(strumd, more, pointers):
+    response = strumd.post(CABLE | more, FORCED)
+    assert response.status_code == 400, response.text
+    assert [error["pointer"] for error in response.json()["errors"]] == pointers, response.text
