@@ -192,8 +192,10 @@ class Tidy:
                 request[low], request[high] = request[high], request[low]
         if "profiles_at" in request:
             self.profiles(request)
+        self.repeats(request.get("components", ()))
         for part in request.get("components", ()):
-            self.part(part)
+            for one in (part, *part.get("components", ())):
+                self.part(one)
         if path == "/v1/absorber/optimize":
             self.variables(request)
 
@@ -275,6 +277,16 @@ class Tidy:
     def profiles(self, request):
         at = request.get("frequency_ratios") or [request.get("frequency_ratio_min", 0), request.get("frequency_ratio_max", 1)]
         request["profiles_at"] = [self.rng.choice(at) for _ in request["profiles_at"]][:3]
+
+    def repeats(self, parts):
+        """A few of each; a spacing where a cable stands beside."""
+        for i, part in enumerate(parts):
+            if "repeat" in part:
+                part["repeat"]["count"] = 1 + part["repeat"]["count"] % 4
+                beside = parts[max(i - 1, 0):i] + parts[i + 1:i + 2]
+                if all(one["type"] != "cable" for one in beside):
+                    part["repeat"].pop("spacing_m", None)
+            self.repeats(part.get("components", ()))
 
     def part(self, part):
         if "joints" in part and part["joints"]:
@@ -397,7 +409,8 @@ class Ease:
 
     @staticmethod
     def damps(part):
-        return part.get("drag_N_s_per_m2") or part.get("damping_N_s_per_m") or "joints" in part
+        return any(one.get("drag_N_s_per_m2") or one.get("damping_N_s_per_m") or "joints" in one
+                   for one in (part, *part.get("components", ())))
 
     def damped_chain(self, request):
         light = [part for part in request["components"] if not self.damps(part)]

@@ -76,6 +76,32 @@ def test_matrices(strumd):
          CHAIN | {"periods_s": [2, 2 * math.pi / 3]})
 
 
+def beads(count, length):
+    """So many masses on a cable, one by one and by one entry."""
+    piece, mass = {"type": "cable", "length_m": length, "mass_kg_per_m": 1.5}, {"type": "point_mass", "mass_kg": 3}
+    rows = [[piece] + [mass, piece] * count, [piece, {**mass, "repeat": {"count": count, "spacing_m": length}}, piece],
+            [{"type": "group", "components": [piece, mass], "repeat": {"count": count}}, piece]]
+    return [{"tension_N": 5000, "components": row} for row in rows]
+
+
+def test_repeats(strumd):
+    same(strumd, MODES, *(r | {"band_Hz": [.2, 2], "shape_points": 9} for r in beads(40, 2)), relative=0)
+    same(strumd, MATRIX, *(r | {"frequencies_Hz": [.3]} for r in beads(7, 2)), relative=0)
+    search = {"variables": [{"name": "c", "min": 10, "max": 200}], "modes": [1], "max_evaluations": 200}
+    absorber = {"type": "hanging_absorber", "mass_kg": 2, "stiffness_N_per_m": 60, "damping_N_s_per_m": {"variable": "c"}}
+    same(strumd, ABSORBER, *({**r, "components": [absorber, *r["components"]], "left_end": "free", **search} for r in beads(3, 5)), relative=0)
+
+
+def test_many_repeats(strumd):
+    """10,000 components, and no more."""
+    request = beads(4999, .1)[1] | {"mode_numbers": [1, 5000], "nodes": False}
+    assert len(ask(strumd, MODES, request)["result"]["modes"]) == 2
+    request["components"][1]["repeat"]["count"] = 5001
+    response = strumd.post(request, MODES)
+    assert response.status_code == 400
+    assert [error["pointer"] for error in response.json()["errors"]] == ["/components/1/repeat/count"]
+
+
 @pytest.mark.parametrize("more, pointers", [
     ({"frequency_min_Hz": 2, "frequency_max_Hz": 1}, ["/frequency_max_Hz"]),
     ({"period_min_s": 2, "period_max_s": 1}, ["/period_max_s"]),

@@ -65,7 +65,7 @@ static bool respond(const void *data, answer *a)
     const strum_status status = solve(&s, &best, &roots, &late, &error);
     if (status != STRUM_OK) {
         strum_taut_roots_free(roots);
-        chain_refuse(&error, status, a->problem);
+        chain_refuse(&r->in, &error, status, a->problem);
         return false;
     }
     if (late) {

@@ -143,7 +143,7 @@ int absorber_variable_index(const absorber_request *r, const char *name)
 void absorber_prepare(void *data, schema_arena *arena, problem *p)
 {
     absorber_request *r = data;
-    chain_prepare(&r->in, p);
+    chain_prepare(&r->in, arena, p);
     check_variables(r, p);
     const absorber_variable *all = r->variables.items;
     r->mode_numbers = schema_alloc(arena, STRUM_ABSORBER_MODES_MAX * sizeof *r->mode_numbers);
@@ -168,7 +168,7 @@ void absorber_prepare(void *data, schema_arena *arena, problem *p)
 double absorber_solve_bytes(const void *data)
 {
     const absorber_request *r = data;
-    return 2e6 + 8192 * (double)r->in.components.count + 4096 * (double)r->sweep.points;
+    return 2e6 + 8192 * (double)r->in.part_count + 4096 * (double)r->sweep.points;
 }
 
 double absorber_cost_us(const void *data)

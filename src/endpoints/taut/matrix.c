@@ -51,25 +51,25 @@ static void prepare(void *data, schema_arena *arena, problem *p)
 {
     request *r = data;
     const char *pointer = frequencies_pointer(&r->real);
-    chain_prepare(&r->in, p);
+    chain_prepare(&r->in, arena, p);
     find_frequencies(r, arena, p);
-    if ((r->in.components.count + 1) * r->asked.count > MATRICES_MAX)
+    if ((r->in.part_count + 1) * r->asked.count > MATRICES_MAX)
         problem_add(p, pointer != NULL ? pointer : "/angular_frequencies",
                     "%zu frequencies of %zu components are more than %d matrices",
-                    r->asked.count, r->in.components.count, MATRICES_MAX);
+                    r->asked.count, r->in.part_count, MATRICES_MAX);
 }
 
 static double cost_us(const void *data)
 {
     const request *r = data;
-    return 10 + 2.0 * (double)(r->in.components.count * r->asked.count);
+    return 10 + 2.0 * (double)(r->in.part_count * r->asked.count);
 }
 
 /* The chain alone; matrices are written as they are made. */
 static double solve_bytes(const void *data)
 {
     const request *r = data;
-    return 4096.0 * (double)r->in.components.count;
+    return 4096.0 * (double)r->in.part_count;
 }
 
 static void write_matrix(json_writer *json, const double _Complex matrix[4])
@@ -119,7 +119,7 @@ static bool respond(const void *data, answer *a)
     json_key(json, "matrices");
     json_open_array(json);
     for (size_t i = 0; i < r->asked.count && status == STRUM_OK; i++) {
-        status = write_at(json, chain, r->in.components.count, r->asked.items[i], &fault);
+        status = write_at(json, chain, r->in.part_count, r->asked.items[i], &fault);
         if (answer_cancelled(a))
             status = STRUM_ERR_CANCELLED;
     }
@@ -127,7 +127,7 @@ static bool respond(const void *data, answer *a)
     json_close_object(json);
     strum_taut_free(chain);
     if (status != STRUM_OK)
-        chain_refuse(&fault, status, a->problem);
+        chain_refuse(&r->in, &fault, status, a->problem);
     return status == STRUM_OK;
 }
 

@@ -140,7 +140,7 @@ static void keep_chain(request *r, schema_arena *arena, problem *p)
 static void prepare(void *data, schema_arena *arena, problem *p)
 {
     request *r = data;
-    chain_prepare(&r->in, p);
+    chain_prepare(&r->in, arena, p);
     band_read(&r->asked_band, r->band);
     if (r->shape_points == 1)
         problem_add(p, "/shape_points",
@@ -177,7 +177,7 @@ static double node_estimate(const request *r, double modes)
 static double solve_bytes(const void *data)
 {
     const request *r = data;
-    const double parts = (double)r->in.components.count;
+    const double parts = (double)r->in.part_count;
     const double rows = r->verify ? fmin(2 * parts, 800) : 0;
     return 2e6 + 4096 * parts + 48 * rows * rows;
 }
@@ -185,7 +185,7 @@ static double solve_bytes(const void *data)
 static double cost_us(const void *data)
 {
     const request *r = data;
-    const double parts = (double)r->in.components.count;
+    const double parts = (double)r->in.part_count;
     const double varying = (double)chain_varying(&r->in);
     if (r->chain == NULL)
         return 10.0;
@@ -341,7 +341,7 @@ static void warn_sag(const request *r, answer *a)
 {
     double length = 0, mass = 0, tension = 0, at = -1;
     chain_glance part;
-    for (size_t i = 0; i < r->in.components.count; i++) {
+    for (size_t i = 0; i < r->in.part_count; i++) {
         if (!chain_look(&r->in, NULL, i, &part) || part.absorber)
             return;
         if (part.damper)
@@ -468,7 +468,7 @@ static bool respond(const void *data, answer *a)
     }
     strum_taut_roots_free(roots);
     if (status != STRUM_OK)
-        chain_refuse(&fault, status, a->problem);
+        chain_refuse(&r->in, &fault, status, a->problem);
     return status == STRUM_OK;
 }
 
