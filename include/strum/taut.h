@@ -192,13 +192,18 @@ typedef enum strum_taut_method {
     STRUM_TAUT_MULLER     /* Muller's method with deflation, from each undamped frequency */
 } strum_taut_method;
 
-/* What is asked: the modes `numbers` (ascending), or, where `count` is 0, all roots with
- * lowest <= Re w <= highest and Im w <= max_decay. */
+/* What is asked: the modes `numbers` (ascending); or, where `count` is 0, by place: the
+ * `wanted` roots from place `first` on (from 1) of all that oscillate, by frequency, then decay,
+ * those without a number too (rigid motions come first, with frequency 0); or, where both are 0,
+ * all roots with lowest <= Re w <= highest and Im w <= max_decay. Without damping places are
+ * mode numbers. */
 typedef struct strum_taut_query {
     const long *numbers;
     size_t count;
+    long first;
+    size_t wanted;
     double lowest, highest; /* rad/s, 0 < lowest < highest */
-    double max_decay;       /* 1/s, > 0; 0 with `numbers`: what their roots need */
+    double max_decay; /* 1/s, > 0; 0 with `numbers`: what their roots need; 0 by place: any */
     strum_taut_method method;
     /* Roots of a similar chain (may be NULL): where they lead to every root that the count
      * expects, no branch is followed, no overdamped root sought, and `exceptional` left
@@ -207,8 +212,21 @@ typedef struct strum_taut_query {
     size_t guess_count;
 } strum_taut_query;
 
+/* What became of a mode that no oscillating root has the number of. */
+typedef enum strum_taut_fate {
+    STRUM_TAUT_OVERDAMPED, /* it no longer oscillates */
+    STRUM_TAUT_UNBOUNDED,  /* its decay grew without bound before the full damping */
+    STRUM_TAUT_COALESCED   /* its branch met another root and cannot be told from it beyond */
+} strum_taut_fate;
+
+typedef struct strum_taut_missing {
+    long mode;
+    strum_taut_fate fate;
+    double factor; /* of all damping, to which its branch was followed */
+} strum_taut_missing;
+
 typedef struct strum_taut_roots {
-    strum_taut_root *roots; /* oscillating; by frequency (band), or as numbers were asked */
+    strum_taut_root *roots; /* oscillating; by frequency, or as numbers were asked */
     size_t count;
     strum_taut_root *overdamped; /* frequency 0, by decay, up to the decay searched */
     size_t overdamped_count;
@@ -219,9 +237,14 @@ typedef struct strum_taut_roots {
     /* By the count and known, on the axis Re w = 0 up to max_decay: overdamped roots and rigid
      * motions. */
     long axis_expected, axis_found;
-    /* Modes (of those asked or met) whose branch ends before the full damping is reached: its
-     * decay grows without bound; 0: none. */
+    /* Modes (of those asked, in the band, or between those answered) without an oscillating
+     * root; `lost`: how many of their branches end before the full damping is reached. */
+    strum_taut_missing *missing;
+    size_t missing_count;
     long lost;
+    /* Beyond max_decay, though more was asked, rounding hides the roots: a damper matches its
+     * cable. */
+    bool hidden_beyond;
     /* Roots that Muller's method missed, and those it found from another mode's guess. */
     long missed, hopped;
     double max_residual; /* largest distance to the next Newton iterate, relative */

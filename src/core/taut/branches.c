@@ -57,7 +57,7 @@ static void arrive(taut_solve *s)
         if (branch->state == TAUT_LOST && branch->factor > 1.0 - 1e-6 &&
             taut_newton(&s->search, &end) && cimag(end) > 0.0 &&
             cabs(end - branch->s[0]) < 1e-2 * s->search.spacing)
-            *branch = (taut_branch){k, 1.0, TAUT_OSCILLATES, {end, conj(end)}};
+            *branch = (taut_branch){k, 1.0, TAUT_OSCILLATES, {end, conj(end)}, false};
     }
 }
 
@@ -135,6 +135,35 @@ static strum_status follow(taut_solve *s, double *w, double *gap, double below, 
     return status;
 }
 
+/* What became of a branch. */
+static strum_taut_fate fate_of(const taut_solve *s, const taut_branch *branch)
+{
+    bool on_axis = branch->state == TAUT_OVERDAMPED;
+    for (size_t i = 0; i < s->known; i++)
+        on_axis = on_axis || (s->mode[i] == branch->mode && cimag(s->s[i]) == 0.0);
+    if (on_axis)
+        return STRUM_TAUT_OVERDAMPED;
+    return branch->state == TAUT_LOST && !branch->meets ? STRUM_TAUT_UNBOUNDED
+                                                        : STRUM_TAUT_COALESCED;
+}
+
+strum_status taut_solve_note_missing(taut_solve *s, long first, long last)
+{
+    strum_status status = STRUM_OK;
+    first = first < s->first ? s->first : first;
+    last = last > s->last ? s->last : last;
+    for (long k = first; k <= last && status == STRUM_OK; k++) {
+        const taut_branch *branch = &s->branches[k - s->first];
+        bool there = branch->state == TAUT_LOST && branch->s[0] == 0.0; /* a rigid motion */
+        for (size_t i = 0; i < s->known && !there; i++)
+            there = s->mode[i] == k && cimag(s->s[i]) > 0.0;
+        if (!there)
+            status = taut_roots_miss(
+                s->out, (strum_taut_missing){k, fate_of(s, branch), branch->factor}, s->fault);
+    }
+    return status;
+}
+
 /* Frequencies of `count` modes from `first` on. */
 static strum_status frequencies(taut_solve *s, long first, size_t count, double *w)
 {
@@ -174,15 +203,19 @@ static strum_status widen(taut_solve *s, long most, double *below, double *above
     return STRUM_OK;
 }
 
+long taut_modes_most(const strum_taut *chain, double spacing)
+{
+    taut_shot shot;
+    if (chain->travel > 0.0)
+        return STRUM_TAUT_MODE_MAX;
+    taut_shoot(chain, 1e12 * spacing, &shot); /* without cables there are only so many */
+    return shot.count < STRUM_TAUT_MODE_MAX ? shot.count : STRUM_TAUT_MODE_MAX;
+}
+
 strum_status taut_solve_follow(taut_solve *s, long first, long last)
 {
     const strum_taut *chain = s->search.chain;
-    long most = STRUM_TAUT_MODE_MAX;
-    if (chain->travel == 0.0) { /* without cables there are only so many */
-        taut_shot shot;
-        taut_shoot(chain, 1e12 * s->search.spacing, &shot);
-        most = most < shot.count ? most : shot.count;
-    }
+    const long most = taut_modes_most(chain, s->search.spacing);
     s->first = first < 1 ? 1 : first;
     s->last = last > most ? most : last;
     double below = 0.0, above = INFINITY;

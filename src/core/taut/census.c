@@ -2,6 +2,9 @@
 /* The count of one damped solve: how many roots a band holds, and those that are missing. */
 #include "core/taut/solve.h"
 
+/* Share of F that rounding may be where it is counted. */
+#define CLEAR 1e-3
+
 long taut_solve_inside(const taut_solve *s, const taut_rectangle *box)
 {
     long count = 0;
@@ -11,16 +14,34 @@ long taut_solve_inside(const taut_solve *s, const taut_rectangle *box)
     return count;
 }
 
-/* Counts the zeros in the box, moving its borders a little outwards when one lies on them. */
+/* Down to which decay, of that of the box, F stands above its rounding: beside a damper that
+ * matches its cable nothing comes back, and F is a difference of much larger numbers. */
+static double clear_decay(taut_solve *s, const taut_rectangle *box)
+{
+    const double high = box->im_hi, low = box->im_lo < 0.0 ? 0.1 * high : box->im_lo;
+    const double at[3] = {low, 0.43 * low + 0.57 * high, high};
+    double decay = -box->re_lo;
+    for (int k = 0; k < 3; k++)
+        while (decay > 0.1 * s->search.spacing && s->search.status == STRUM_OK &&
+               taut_noise(&s->search, CMPLX(-decay, at[k]), 1.0) > CLEAR)
+            decay *= 0.9;
+    return decay;
+}
+
 strum_status taut_solve_count(taut_solve *s, taut_rectangle *box, long *expected)
 {
-    const taut_rectangle given = *box;
+    taut_rectangle given = *box;
     for (int k = 0; k < 6; k++) {
         *expected = taut_count_zeros(&s->search, box);
         if (s->search.status != STRUM_OK)
             return taut_solve_stopped(s);
         if (*expected >= 0)
             return STRUM_OK;
+        const double clear = k == 0 ? clear_decay(s, &given) : -given.re_lo;
+        if (clear < -given.re_lo) {
+            given.re_lo = -clear;
+            s->out->hidden_beyond = true;
+        }
         const double out = ldexp(1e-7, 3 * k) * s->search.spacing;
         box->re_lo = given.re_lo - out;
         box->im_hi = given.im_hi + out;
@@ -37,6 +58,8 @@ static long mode_near(const taut_solve *s, cplx root)
     double nearest = 1e-2 * s->search.spacing;
     long mode = 0;
     for (long k = s->first; k <= s->last; k++) {
+        if (s->branches[k - s->first].state != TAUT_LOST)
+            continue;
         const double apart = cabs(s->branches[k - s->first].s[0] - root);
         bool led = false;
         for (size_t i = 0; i < s->known; i++)

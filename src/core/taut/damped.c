@@ -26,13 +26,12 @@ static strum_status solve_band(taut_solve *s)
     for (size_t i = 0; i < s->known && status == STRUM_OK; i++)
         if (taut_inside(&box, s->s[i]) && cimag(s->s[i]) > 0.0)
             status = taut_solve_give(s, i, false);
-    for (long k = s->first; k <= s->last && status == STRUM_OK; k++)
-        if (k > below && k <= last && s->branches[k - s->first].state == TAUT_LOST)
-            s->out->lost++;
+    if (status == STRUM_OK)
+        status = taut_solve_note_missing(s, below + 1, last);
     s->out->lowest = fmax(box.im_lo, 0.0);
     s->out->highest = box.im_hi;
     s->out->max_decay = -box.re_lo;
-    return status == STRUM_OK ? taut_solve_axis(s, box.im_lo, q->max_decay) : status;
+    return status == STRUM_OK ? taut_solve_axis(s, box.im_lo, s->out->max_decay) : status;
 }
 
 /* Borders of a run: half way from its outermost roots to the next ones known beyond. */
@@ -96,7 +95,6 @@ static strum_status solve_run(taut_solve *s, long first, long last)
                              s->last);
         if (s->branches[k - s->first].state == TAUT_LOST) {
             const bool rigid = s->branches[k - s->first].s[0] == 0.0;
-            out->lost += !rigid;
             if (rigid)
                 status = taut_roots_add(s->out, (strum_taut_root){k, 0.0, 0.0, INFINITY}, false,
                                         s->fault);
@@ -105,6 +103,8 @@ static strum_status solve_run(taut_solve *s, long first, long last)
             if (s->mode[i] == k && cimag(s->s[i]) > 0.0)
                 status = taut_solve_give(s, i, false);
     }
+    if (status == STRUM_OK)
+        status = taut_solve_note_missing(s, first, last);
     if (status == STRUM_OK && first == s->query->numbers[0])
         status =
             taut_solve_axis(s, running > 0 ? box.im_lo : 0.25 * s->search.spacing, -box.re_lo);
@@ -157,6 +157,8 @@ strum_status taut_solve_damped(taut_solve *s)
     const strum_taut_query *q = s->query;
     s->search.spacing = taut_spacing(s->search.chain);
     s->out->count_method = "argument principle";
+    if (q->count == 0 && q->wanted > 0)
+        return taut_solve_places(s);
     if (q->count == 0) {
         bool done = false;
         strum_status status = STRUM_OK;

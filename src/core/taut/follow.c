@@ -42,6 +42,22 @@ taut_value taut_search_value(taut_search *search, cplx s)
     return value_at(search, (dual){s, 1.0}, dual_of(1.0));
 }
 
+double taut_noise(taut_search *search, cplx s, double factor)
+{
+    static const double turns[4] = {3.0, 5.0, -4.0, -7.0};
+    const taut_value here = taut_search_at(search, s, factor);
+    double most = here.f == 0.0 ? INFINITY : 0.0;
+    for (int k = 0; k < 4 && most < INFINITY; k++) {
+        const cplx by = times(turns[k] * DBL_EPSILON * s, k & 1 ? CMPLX(0.8, 0.6) : 1.0);
+        const cplx there = s + by;
+        const taut_value v = taut_search_at(search, there, factor);
+        const cplx smooth = here.f + times(here.d, there - s);
+        const cplx off = v.f * exp(v.log_scale - here.log_scale) - smooth;
+        most = fmax(most, cabs(off) / cabs(here.f));
+    }
+    return most;
+}
+
 /* Far from the imaginary axis F grows like e^{-travel s}, whose slope misleads; times e^{c s},
  * which has no zeros, it does not. */
 static double growth(const taut_search *search, cplx s)
@@ -119,7 +135,7 @@ static bool cross(taut_search *search, taut_branch *branch, quadratic k, double 
         cplx s = CMPLX(half, apart);
         if (!newton(search, &s, factor, 0.5 * apart) || !(cimag(s) > 0.2 * apart))
             return false;
-        *branch = (taut_branch){branch->mode, factor, TAUT_OSCILLATES, {s, conj(s)}};
+        *branch = (taut_branch){branch->mode, factor, TAUT_OSCILLATES, {s, conj(s)}, false};
         return true;
     }
     cplx slow = half + apart, fast = half - apart;
@@ -127,7 +143,7 @@ static bool cross(taut_search *search, taut_branch *branch, quadratic k, double 
         !newton(search, &fast, factor, 0.5 * apart) ||
         !(creal(slow) - creal(fast) > 0.4 * apart))
         return false;
-    *branch = (taut_branch){branch->mode, factor, TAUT_OVERDAMPED, {slow, fast}};
+    *branch = (taut_branch){branch->mode, factor, TAUT_OVERDAMPED, {slow, fast}, false};
     return true;
 }
 
@@ -165,7 +181,7 @@ static bool step(taut_search *search, taut_branch *branch, const cplx *speeds,
 
 void taut_branch_start(taut_branch *branch, long mode, double w)
 {
-    *branch = (taut_branch){mode, 0.0, TAUT_OSCILLATES, {CMPLX(0.0, w), CMPLX(0.0, -w)}};
+    *branch = (taut_branch){mode, 0.0, TAUT_OSCILLATES, {CMPLX(0.0, w), CMPLX(0.0, -w)}, false};
     if (w == 0.0)
         branch->state = TAUT_LOST; /* a rigid motion: a double root at 0 */
 }
@@ -203,8 +219,10 @@ void taut_branch_follow(taut_search *search, taut_branch *branch, double gap, do
         reaches[0] *= 0.5 * reach;
         reaches[1] *= 0.5 * reach;
         if (n > STEPS_MAX || search->status != STRUM_OK ||
-            !step(search, branch, speeds, reaches, factor))
+            !step(search, branch, speeds, reaches, factor)) {
             branch->state = TAUT_LOST;
+            branch->meets = !(reaches[0] > 1e-3 * search->spacing);
+        }
     }
 }
 

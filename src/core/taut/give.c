@@ -73,17 +73,25 @@ static int zeros_at_origin(const strum_taut *chain)
     return rigid.zeros + (rigid.loose ? (rigid.resisted ? 1 : 2) : 0);
 }
 
-strum_status taut_solve_axis(taut_solve *s, double lowest, double decay)
+strum_status taut_solve_axis_list(taut_solve *s, taut_rectangle *box, double highest,
+                                  double decay)
 {
-    const double half = fmin(lowest > 0.0 ? lowest : INFINITY, 0.25 * s->search.spacing);
-    taut_rectangle box = taut_solve_box(s, -half, half, decay);
+    *box = taut_solve_box(s, -highest, highest, decay);
     const int rigid = zeros_at_origin(s->search.chain);
     strum_status status = taut_solve_reserve(s, (size_t)rigid);
     for (int i = 0; i < rigid && status == STRUM_OK; i++) {
         s->s[s->known] = 0.0;
         s->mode[s->known++] = 0;
     }
-    if (status == STRUM_OK)
-        status = taut_solve_complete(s, &box, &s->out->axis_expected, &s->out->axis_found);
+    return status == STRUM_OK
+               ? taut_solve_complete(s, box, &s->out->axis_expected, &s->out->axis_found)
+               : status;
+}
+
+strum_status taut_solve_axis(taut_solve *s, double lowest, double decay)
+{
+    taut_rectangle box;
+    const double half = fmin(lowest > 0.0 ? lowest : INFINITY, 0.25 * s->search.spacing);
+    const strum_status status = taut_solve_axis_list(s, &box, half, decay);
     return status == STRUM_OK ? taut_solve_give_overdamped(s, decay) : status;
 }

@@ -83,7 +83,8 @@ bool taut_solve_group(taut_solve *s, taut_branch *first, int count, double w, do
         return false;
     for (int i = 0; i < count; i++) {
         taut_branch *b = first + i;
-        *b = (taut_branch){b->mode, g.factor, TAUT_OSCILLATES, {g.roots[i], conj(g.roots[i])}};
+        *b = (taut_branch){
+            b->mode, g.factor, TAUT_OSCILLATES, {g.roots[i], conj(g.roots[i])}, false};
         taut_branch_follow(&s->search, b, fmax(gap, 0.2 * s->search.spacing), 1.0, 1.0);
     }
     return true;

@@ -10,6 +10,13 @@ double taut_solve_scale(const taut_solve *s, cplx root)
     return cimag(root) == 0.0 ? cabs(root) : cabs(root) + 1e-3 * s->search.spacing;
 }
 
+bool taut_solve_before(cplx a, cplx b)
+{
+    if (fabs(cimag(a) - cimag(b)) > TAUT_TIE * cimag(a))
+        return cimag(a) < cimag(b);
+    return creal(a) > creal(b);
+}
+
 strum_status taut_solve_no_memory(taut_solve *s)
 {
     return error_set(s->fault, STRUM_ERR_MEMORY, "no memory for damped roots");

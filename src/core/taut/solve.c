@@ -58,6 +58,25 @@ static strum_status undamped(taut_solve *s, const long *numbers, size_t count)
     return status;
 }
 
+/* Modes first.. first + count - 1. */
+static strum_status undamped_run(taut_solve *s, long first, size_t count)
+{
+    long *numbers = malloc((count + 1) * sizeof *numbers);
+    if (numbers == NULL)
+        return error_set(s->fault, STRUM_ERR_MEMORY, "no memory for %zu modes", count);
+    for (size_t i = 0; i < count; i++)
+        numbers[i] = first + (long)i;
+    const strum_status status = undamped(s, numbers, count);
+    free(numbers);
+    return status;
+}
+
+/* Places are mode numbers. */
+static strum_status undamped_places(taut_solve *s)
+{
+    return undamped_run(s, s->query->first, s->query->wanted);
+}
+
 static strum_status undamped_band(taut_solve *s)
 {
     const strum_taut *chain = s->search.chain;
@@ -70,14 +89,7 @@ static strum_status undamped_band(taut_solve *s)
     if (last - below > STRUM_TAUT_ROOTS_MAX || last > STRUM_TAUT_MODE_MAX)
         return error_set(s->fault, STRUM_ERR_RANGE, "the band holds %ld modes, more than %d",
                          last - below, STRUM_TAUT_ROOTS_MAX);
-    long *numbers = malloc((count + 1) * sizeof *numbers);
-    if (numbers == NULL)
-        return error_set(s->fault, STRUM_ERR_MEMORY, "no memory for %zu modes", count);
-    for (size_t i = 0; i < count; i++)
-        numbers[i] = below + 1 + (long)i;
-    const strum_status status = undamped(s, numbers, count);
-    free(numbers);
-    return status;
+    return undamped_run(s, below + 1, count);
 }
 
 static strum_status check_query(const strum_taut *chain, const strum_taut_query *q,
@@ -95,7 +107,13 @@ static strum_status check_query(const strum_taut *chain, const strum_taut_query 
             return error_set(fault, STRUM_ERR_RANGE,
                              "mode numbers must ascend and lie within 1 and %d",
                              STRUM_TAUT_MODE_MAX);
-    const bool band = q->count == 0;
+    const bool band = q->count == 0 && q->wanted == 0;
+    if (q->count == 0 && q->wanted > 0 &&
+        (q->wanted > STRUM_TAUT_ROOTS_MAX || q->first < 1 ||
+         q->first > STRUM_TAUT_MODE_MAX - (long)q->wanted + 1))
+        return error_set(fault, STRUM_ERR_RANGE,
+                         "at most %d roots at once, at places within 1 and %d",
+                         STRUM_TAUT_ROOTS_MAX, STRUM_TAUT_MODE_MAX);
     if (band && !(q->lowest > 0.0 && q->highest > q->lowest && isfinite(q->highest)))
         return error_set(fault, STRUM_ERR_RANGE, "a band needs 0 < lowest < highest");
     if (!(q->max_decay >= 0.0) || !isfinite(q->max_decay) || (band && q->max_decay == 0.0))
@@ -131,6 +149,8 @@ strum_status strum_taut_solve(const strum_taut *chain, const strum_taut_query *q
         status = taut_solve_damped(&s);
     else if (query->count > 0)
         status = undamped(&s, query->numbers, query->count);
+    else if (query->wanted > 0)
+        status = undamped_places(&s);
     else
         status = undamped_band(&s);
     if (status == STRUM_OK && query->method == STRUM_TAUT_MULLER)

@@ -20,6 +20,8 @@ typedef struct taut_solve {
 } taut_solve;
 
 strum_status taut_solve_damped(taut_solve *s);
+/* The roots asked by place (places.c). */
+strum_status taut_solve_places(taut_solve *s);
 /* Replaces the roots given out by those of Muller's method, and compares. */
 strum_status taut_solve_muller(taut_solve *s);
 /* A root is itself to this share of its size. */
@@ -28,6 +30,8 @@ strum_status taut_solve_muller(taut_solve *s);
 /* ---- what it knows (known.c) ---- */
 
 double taut_solve_scale(const taut_solve *s, cplx root);
+/* By frequency, then decay; frequencies that differ by rounding only are one. */
+bool taut_solve_before(cplx a, cplx b);
 /* Room for `more` further roots. */
 strum_status taut_solve_reserve(taut_solve *s, size_t more);
 strum_status taut_solve_no_memory(taut_solve *s);
@@ -36,8 +40,13 @@ strum_status taut_solve_stopped(taut_solve *s);
 
 /* ---- branches (branches.c) ---- */
 
+/* Modes that a chain has, or that can be asked. */
+long taut_modes_most(const strum_taut *chain, double spacing);
 /* Follows the branches of modes first..last, as far as the chain has them. */
 strum_status taut_solve_follow(taut_solve *s, long first, long last);
+
+/* Notes those of the modes first..last that no oscillating root has the number of. */
+strum_status taut_solve_note_missing(taut_solve *s, long first, long last);
 
 /* ---- groups of modes that coincide without damping (groups.c) ---- */
 
@@ -71,6 +80,9 @@ strum_taut_root taut_solve_plain(const taut_solve *s, size_t i);
 strum_status taut_solve_give(taut_solve *s, size_t i, bool overdamped);
 /* Overdamped roots: all that are known on the axis within `decay`, and those of modes asked. */
 strum_status taut_solve_give_overdamped(taut_solve *s, double decay);
+/* Puts on the list what lies up to `highest` about the axis; `box` becomes what was counted. */
+strum_status taut_solve_axis_list(taut_solve *s, taut_rectangle *box, double highest,
+                                  double decay);
 /* Counts and gives out what lies on the axis. */
 strum_status taut_solve_axis(taut_solve *s, double lowest, double decay);
 

@@ -100,6 +100,7 @@ typedef struct taut_branch {
     double factor;
     taut_branch_state state;
     cplx s[2];
+    bool meets; /* where it was lost another root was near */
 } taut_branch;
 
 /* From mode `mode` with undamped frequency w whose neighbours lie `gap` away. */
@@ -108,6 +109,9 @@ void taut_branch_start(taut_branch *branch, long mode, double w);
  */
 void taut_branch_follow(taut_search *search, taut_branch *branch, double gap, double factor,
                         double reach);
+
+/* What rounding does to F at a point, as a share of it (1 and more: nothing is left). */
+double taut_noise(taut_search *search, cplx s, double factor);
 
 /* Zeros in [re_lo, re_hi] x [im_lo, im_hi] of the s plane; -1 when a zero lies on the boundary.
  * im_lo < 0 = -im_hi: symmetric, only the upper half is walked. */

@@ -230,12 +230,10 @@ void chain_prepare(chain_input *in, schema_arena *arena, problem *p)
 
 double chain_number(const variable_value *v, const chain_variables *x)
 {
-    if (plain(v))
-        return v->value;
-    for (size_t i = 0; x != NULL && i < x->count; i++)
+    for (size_t i = 0; !plain(v) && x != NULL && i < x->count; i++)
         if (strcmp(x->names[i].text, v->name.text) == 0)
             return v->value + v->scale * x->values[i];
-    return NAN;
+    return plain(v) ? v->value : NAN;
 }
 
 /* Room for all bodies' links and joints; the chain's tension. */

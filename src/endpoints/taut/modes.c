@@ -36,9 +36,11 @@ static const field fields[] = {
     CHAIN_FIELDS,
     CHAIN_END_FIELDS,
     {FIELD_AT(FIELD_INTEGER, request, modes), .min = 1, .max = MODES_MAX,
-     .flags = FIELD_DEFAULT, .fallback = 10, .help = "how many modes, from first_mode on"},
+     .flags = FIELD_DEFAULT, .fallback = 10,
+     .help = "how many modes, by frequency, from first_mode on"},
     {FIELD_AT(FIELD_INTEGER, request, first_mode), .min = 1, .max = STRUM_TAUT_MODE_MAX,
-     .flags = FIELD_DEFAULT, .fallback = 1, .help = "number of the first mode"},
+     .flags = FIELD_DEFAULT, .fallback = 1,
+     .help = "place of the first mode among all by frequency; without damping its number"},
     {FIELD_AT(FIELD_NUMBERS, request, mode_numbers), .min = 1, .max = STRUM_TAUT_MODE_MAX,
      .flags = FIELD_ASCENDING | FIELD_WHOLE, .min_items = 1, .max_items = MODES_MAX,
      .help = "these modes"},
@@ -283,6 +285,8 @@ static strum_status write_mode(const request *r, const strum_taut_root *root, an
     strum_status status = STRUM_OK;
     json_open_object(json);
     chain_write_root(json, root);
+    if (root->mode == 0)
+        json_put_flag(json, "unnumbered", true);
     if (root->frequency > 0.0 && ((r->nodes && !damped) || r->shape_points > 0))
         status = strum_taut_shape_make(r->chain, root, &options, &shape, fault);
     if (status == STRUM_OK && shape != NULL && r->nodes && !damped)
@@ -361,15 +365,34 @@ static void warn_sag(const request *r, answer *a)
                 share, STAY_STIFF * share * share);
 }
 
-static void warn(const strum_taut_roots *roots, answer *a)
+/* Mode numbers without an oscillating root, and roots without a number. */
+static void warn_of_numbers(const strum_taut_roots *roots, answer *a)
 {
-    if (roots->lost > 0)
-        answer_warn(
-            a,
-            "the branches of %ld modes could not be followed to the full damping (their decay "
-            "grows without bound, or they meet other roots): no root has their numbers; a band "
-            "gives all roots, with or without",
-            roots->lost);
+    bool unnumbered = false;
+    if (roots->missing_count > 0)
+        answer_warn(a,
+                    "%zu mode numbers, the first of them %ld, have no oscillating root: "
+                    "missing_modes says what became of each",
+                    roots->missing_count, roots->missing[0].mode);
+    for (size_t i = 0; i < roots->count; i++)
+        unnumbered = unnumbered || roots->roots[i].mode == 0;
+    if (unnumbered)
+        answer_warn(a, "roots without a number lie on no branch from zero damping");
+}
+
+static void warn(const request *r, const strum_taut_roots *roots, answer *a)
+{
+    warn_of_numbers(roots, a);
+    if (roots->hidden_beyond)
+        answer_warn(a,
+                    "a damper matches its cable: beyond a decay of %.6g 1/s rounding hides "
+                    "whatever roots there are, and none is answered there",
+                    roots->max_decay);
+    if (!by_band(r) && r->mode_numbers.count == 0 && roots->count < r->number_count)
+        answer_warn(a,
+                    "the chain has %zu oscillating roots only where %zu were asked for; "
+                    "looked for up to %.6g rad/s",
+                    roots->count, r->number_count, roots->highest);
     if (roots->missed > 0)
         answer_warn(a,
                     "Muller's method missed %ld of the roots that the count expects; "
@@ -390,11 +413,24 @@ static void warn(const strum_taut_roots *roots, answer *a)
                 roots->roots[i].frequency);
             break;
         }
-    bool unnumbered = false;
-    for (size_t i = 0; i < roots->count; i++)
-        unnumbered = unnumbered || roots->roots[i].mode == 0;
-    if (unnumbered)
-        answer_warn(a, "roots without a number lie on no branch from zero damping");
+}
+
+/* What became of the modes that no oscillating root has the number of. */
+static void write_missing(json_writer *json, const strum_taut_roots *roots)
+{
+    static const char *const fates[] = {"overdamped", "unbounded", "coalesced"};
+    if (roots->missing_count == 0)
+        return;
+    json_key(json, "missing_modes");
+    json_open_array(json);
+    for (size_t i = 0; i < roots->missing_count; i++) {
+        json_open_object(json);
+        json_put_integer(json, "mode", roots->missing[i].mode);
+        json_put_string(json, "fate", fates[roots->missing[i].fate]);
+        json_put_number(json, "followed_to", roots->missing[i].factor);
+        json_close_object(json);
+    }
+    json_close_array(json);
 }
 
 static strum_status write_result(const request *r, const strum_taut_roots *roots, answer *a,
@@ -421,6 +457,7 @@ static strum_status write_result(const request *r, const strum_taut_roots *roots
         json_close_object(json);
     }
     json_close_array(json);
+    write_missing(json, roots);
     write_count(json, roots);
     json_put_string(json, "normalisation",
                     "the largest displacement along the chain is 1 (the leftmost where tied)");
@@ -443,8 +480,11 @@ static strum_status refusal(const request *r, strum_error *fault)
 static bool respond(const void *data, answer *a)
 {
     const request *r = data;
-    const strum_taut_query query = {.numbers = r->numbers,
-                                    .count = r->number_count,
+    const bool listed = r->mode_numbers.count > 0, placed = !by_band(r) && !listed;
+    const strum_taut_query query = {.numbers = listed ? r->numbers : NULL,
+                                    .count = listed ? r->number_count : 0,
+                                    .first = placed ? (long)r->first_mode : 0,
+                                    .wanted = placed ? r->number_count : 0,
                                     .lowest = r->band[0],
                                     .highest = r->band[1],
                                     .max_decay = by_band(r) ? r->max_decay_per_s : 0.0,
@@ -463,7 +503,7 @@ static bool respond(const void *data, answer *a)
                         : "taut chain by transfer matrices (Levesque 1997; Sergev and Iwan "
                           "1980): every mode by an exact shooting count";
         warn_sag(r, a);
-        warn(roots, a);
+        warn(r, roots, a);
         status = write_result(r, roots, a, &fault);
     }
     strum_taut_roots_free(roots);
