@@ -270,7 +270,7 @@ class Tidy:
 
     def length(self, request):
         span, rise = request["span_m"], request.get("rise_m", 0)
-        for name in ("length_m", "unstretched_length_m"):
+        for name in ("length_m", "unstretched_length_m", "stretched_length_m"):
             if name in request and request[name] <= math.hypot(span, rise) and self.rng.random() < .9:
                 request[name] = min(1e7, math.hypot(span, rise) * (1 + 10 ** self.rng.uniform(-12, 1)))
 
@@ -358,7 +358,7 @@ class Ease:
             if abs(request.get(name, 0)) > bound:
                 request[name] = bound * self.rng.random()
         chord = math.hypot(request.get("span_m", 1), request.get("rise_m", 0))
-        for name in ("length_m", "unstretched_length_m"):
+        for name in ("length_m", "unstretched_length_m", "stretched_length_m"):
             if request.get(name, 0) > 1.6 * chord:
                 request[name] = min(1e7, chord * (1 + 10 ** self.rng.uniform(-8, -.3)))
         for part in request.get("harmonics", ()):

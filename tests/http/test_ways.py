@@ -41,7 +41,7 @@ CHAIN = {"tension_N": 5000, "components": [{"type": "cable", "length_m": 30, "ma
                                            {"type": "point_mass", "mass_kg": 20},
                                            {"type": "cable", "length_m": 20, "mass_kg_per_m": 2}]}
 FORCED, MODES, MATRIX = "/v1/forced/tension", "/v1/taut/modes", "/v1/taut/matrix"
-ABSORBER = "/v1/absorber/optimize"
+ABSORBER, INCLINED, CATENARY = "/v1/absorber/optimize", "/v1/inclined/modes", "/v1/catenary/frequencies"
 
 
 def test_forced_frequencies(strumd):
@@ -74,6 +74,28 @@ def test_matrices(strumd):
     same(strumd, MATRIX, CHAIN | {"angular_frequencies": [math.pi, 3]},
          CHAIN | {"frequencies_Hz": [.5, 3 / 2 / math.pi]}, CHAIN | {"angular_frequencies_rad_per_s": [math.pi, 3]},
          CHAIN | {"periods_s": [2, 2 * math.pi / 3]})
+
+
+STAY = {"mass_kg_per_m": 51.6, "axial_stiffness_N": 1.2069e9}
+
+
+@pytest.mark.parametrize("figure", [{"sag_max_m": 15}, {"sag_mid_m": 15}, {"tension_end_1_N": 3e5}, {"tension_end_2_N": 2e5},
+                                    {"tension_end_2_N": 2e5, "branch": "slack"}, {"horizontal_tension_N": 2e5},
+                                    {"tension_parallel_to_chord_N": 3e5}, {"catenary_parameter_m": 700}])
+def test_inclined_beside_catenary(strumd, figure):
+    """Both endpoints answer the elastic catenary, from one figure of it: statics and modes of both planes."""
+    supports = {"span_m": 300, "rise_m": 120, **STAY, **figure}
+    inclined = ask(strumd, INCLINED, supports | {"statics": "elastic", "plane": "both", "modes": 4})["result"]
+    catenary = ask(strumd, CATENARY, supports | {"modes": 4})["result"]
+    for one, other in (("modes", "in_plane"), ("out_of_plane", "out_of_plane")):
+        assert [m["frequency_Hz"] for m in inclined[one]] == pytest.approx([m["frequency_Hz"] for m in catenary[other]], rel=1e-11)
+    statics = inclined["statics"]
+    assert (statics["span_m"], statics["rise_m"]) == pytest.approx((300, 120), rel=1e-12)
+    old = {"length_m": statics["unstretched_length_m"], "tension_N": statics["tension_N"],
+           "inclination_deg": math.degrees(math.atan2(120, 300)), **STAY, "statics": "elastic", "plane": "both", "modes": 4}
+    again = ask(strumd, INCLINED, old)["result"]
+    for plane in ("modes", "out_of_plane"):
+        assert apart(again[plane], inclined[plane]) < 1e-10
 
 
 def beads(count, length):
