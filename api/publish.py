@@ -198,6 +198,13 @@ def type_batches(contract):
                           "mapping": {path: SCHEMAS + name for path, name in zip(contract.asked, names)}}}
     answers = [contract.answer_of(path) for path in contract.asked]
     contract.schemas["any_answer"] = {"description": "The answer of any endpoint", "anyOf": answers}
+    line = contract.schemas["batch_answer"]
+    for path, answer in zip(contract.asked, answers):
+        own = contract.named(answer)
+        contract.schemas[f"{short(path)}_line"] = {
+            **own, "description": f"{line['description']}: {path}", "properties": {"id": line["properties"]["id"], **own["properties"]}}
+    contract.schemas["batch_answer"] = {"description": line["description"],
+                                        "anyOf": [{"$ref": f"{SCHEMAS}{short(path)}_line"} for path in contract.asked]}
 
 
 # ---- streams ----

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs.py OPENAPI.yaml INDEX.html FOLDER: the reference as static pages, one an endpoint.
+"""docs.py OPENAPI.yaml INDEX.html FOLDER PAGE.md...: the reference as static pages, one an endpoint, and the pages of doc/.
 
 A generator of our own, because the packaged viewers of OpenAPI weigh 0.9 to 3.6 MB each, need inline styles that our
 content security policy forbids, and show neither units nor "one of these groups" as a table.
@@ -13,7 +13,9 @@ from html import escape
 
 import yaml
 
-HOST = "http://127.0.0.1:8080"
+import markdown
+import snippets
+
 PAGE = """<!doctype html>
 <html lang="en">
 <head>
@@ -23,6 +25,7 @@ PAGE = """<!doctype html>
 <link rel="icon" href="/assets/icon.svg">
 <link rel="stylesheet" href="/assets/style.css">
 <script type="module" src="/assets/theme.js"></script>
+<script type="module" src="/assets/address.js"></script>
 </head>
 <body>
 <header class="bar"><a class="brand" href="/">strum</a>
@@ -107,8 +110,9 @@ def wanted(expect):
 
 
 class Reference:
-    def __init__(self, contract):
+    def __init__(self, contract, more):
         self.contract = contract
+        self.more = more  # (name, title, body) of pages that are no endpoint's
         self.asked = {path: item for path, item in contract["paths"].items() if "x-query" in item}
 
     def resolve(self, node):
@@ -190,7 +194,7 @@ class Reference:
         example = self.resolve(next(iter(content["examples"].values())))
         expected = "".join(f'<tr><th scope="row"><code>{escape(one["pointer"])}</code></th><td>{escape(wanted(one))}</td></tr>'
                            for one in example.get("x-expect", []))
-        body = json.dumps(asked[0])
+        ways = snippets.of_question(path, asked[0], "get" in item)
         result = self.members(answer["schema"]).get("result", {})
         verbs = ["POST", "QUERY"] + ["GET"] * ("get" in item)
         return f"""<h1>{escape(post["summary"])}</h1>
@@ -201,7 +205,7 @@ class Reference:
 <p>Every answer names what it used in <code>meta.theory</code>; the one below: {escape(answered[0].get("meta", {}).get("theory", ""))}.</p>
 <h2 id="request">Request</h2>{self.groups(schema)}{self.table(schema, "Fields of the request", "default", "needed", True)}
 <h2 id="example">Worked example</h2><p>{escape(example.get("summary", ""))}.</p>
-<pre tabindex="0"><code class="curl">curl -s --json '{escape(body, quote=False)}' {HOST}{escape(path)}</code></pre>
+{ways}
 <p>The tests send it and hold the answer against these values: {escape(example.get("description", ""))}.</p>
 <div class="wide" tabindex="0" role="region" aria-label="Expected values"><table class="expected"><thead><tr><th scope="col">in the answer</th>
 <th scope="col">expected</th></tr></thead><tbody>{expected}</tbody></table></div>
@@ -210,36 +214,84 @@ class Reference:
 <h2 id="answer">Answer</h2><p>Around it <code>request</code>, <code>warnings</code> and <code>meta</code>.</p>
 {self.table(result, "Fields of result", "there", "always")}
 <h2 id="errors">Refusals</h2><p>As <code>application/problem+json</code>, every faulty field by its JSON pointer.</p>
-<ul>{"".join(f"<li><code>{status}</code> {code(self.resolve(one)['description'])}</li>"
-             for status, one in post["responses"].items() if status != "200")}</ul>"""
+<ul>{self.refusals(post)}</ul>"""
+
+    def refusals(self, operation):
+        return "".join(f"<li><code>{status}</code> {code(self.resolve(one)['description'])}</li>"
+                       for status, one in operation["responses"].items() if status != "200")
+
+    def batch(self):
+        """Not a question, but what holds many: items, lines, and how to send and read them."""
+        post = self.contract["paths"]["/v1/batch"]["post"]
+        schemas, content = self.contract["components"]["schemas"], post["requestBody"]["content"]["application/json"]
+        items = content["examples"]["chosen"]["value"]
+        tables = "".join(f'<h3>{title}</h3>{self.table(schemas[name], title, "there", "always")}' for title, name in (
+            ("An answer", "batch_answer"), ("What was chosen of an answer", "batch_fields"), ("A refusal", "batch_problem")))
+        return f"""<h1>{escape(post["summary"])}</h1>
+<p class="path"><code>POST</code> <code>/v1/batch</code></p>
+{prose(post["description"])}
+<h2 id="example">Two cables, one figure of each</h2>{snippets.of_batch(items)}
+<h2 id="items">An item</h2>{self.table(schemas["batch_item"], "Members of an item", "default", "needed")}
+<h2 id="lines">A line of the answer</h2>{tables}
+<h2 id="errors">Refusals of the whole</h2><ul>{self.refusals(post)}</ul>"""
+
+    def results(self):
+        get = self.contract["paths"]["/v1/results/{key}"]["get"]
+        path, item = next(iter(self.asked.items()))
+        example = self.resolve(next(iter(item["post"]["requestBody"]["content"]["application/json"]["examples"].values())))
+        headers = "".join(f'<tr><th scope="row"><code>{name}</code></th><td>{code(self.resolve(one)["description"])}</td></tr>'
+                          for name, one in get["responses"]["200"]["headers"].items())
+        return f"""<h1>{escape(get["summary"])}</h1>
+<p class="path"><code>GET</code> <code>/v1/results/{{key}}</code></p>
+{prose(get["description"])}
+<p>The key is <code>meta.key</code> of an answer, and its <code>ETag</code>; <code>Content-Location</code> has the whole path.
+A key is the SHA-256 of the question in its canonical form, the solver's number and the machine's numerics: it never names two
+answers, and who asks the same question of the same solver again gets the same one.</p>
+<h2 id="example">Ask, and fetch it again</h2>{snippets.of_result(path, example["value"])}
+<h2 id="headers">Headers</h2><table class="list"><tbody>{headers}</tbody></table>
+<h2 id="errors">Refusals</h2><ul>{self.refusals(get)}</ul>"""
 
     def index(self):
         info = self.contract["info"]
         asked = "".join(f'<tr><th scope="row"><a href="/docs/{name_of(path)}"><code>{escape(path)}</code></a></th>'
                         f'<td>{escape(item["post"]["summary"])}</td></tr>' for path, item in self.asked.items())
-        rest = "".join(f'<tr><th scope="row"><code>{escape(path)}</code></th><td>{escape(next(iter(item.values()))["summary"])}</td></tr>'
+        own = {"/v1/batch": "/docs/batch", "/v1/results/{key}": "/docs/results"}
+
+        def named(path):
+            text = f"<code>{escape(path)}</code>"
+            return f'<a href="{own[path]}">{text}</a>' if path in own else text
+        rest = "".join(f'<tr><th scope="row">{named(path)}</th><td>{escape(next(iter(item.values()))["summary"])}</td></tr>'
                        for path, item in self.contract["paths"].items() if path not in self.asked)
         return f"""<h1>Reference</h1><p class="lead">{escape(info["summary"])}, version {escape(info["version"])}.</p>
 <h2>Questions</h2><table class="list"><tbody>{asked}</tbody></table>
 <h2>Everything else</h2><table class="list"><tbody>{rest}</tbody></table>
+<h2>More</h2><ul>{"".join(f'<li><a href="/docs/{name}">{escape(title)}</a></li>' for name, title, _ in self.more)}</ul>
 <h2>Rules for all of them</h2>{prose(info["description"])}"""
 
     def page(self, title, body, here):
         links = [("/docs", "Overview")] + [(f"/docs/{name_of(path)}", path[4:]) for path in self.asked]
+        links += [("/docs/batch", "batch"), ("/docs/results", "results")] + [(f"/docs/{name}", title) for name, title, _ in self.more]
         contents = "".join(f'<a href="{to}"{" aria-current=page" * (to == here)}>{escape(text)}</a>' for to, text in links)
         return PAGE.format(title=escape(title), body=body, contents=contents)
 
 
 def main():
-    source, index, folder = map(pathlib.Path, sys.argv[1:4])
-    reference = Reference(yaml.safe_load(source.read_text(encoding="utf-8")))
+    source, index, folder, *texts = map(pathlib.Path, sys.argv[1:])
+    more = [(text.stem.replace("_", "-"), *markdown.html_of(text.read_text(encoding="utf-8"))) for text in texts]
+    reference = Reference(yaml.safe_load(source.read_text(encoding="utf-8")), more)
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("*.html"):
         old.unlink()
+
+    def write(name, title, body):
+        (folder / f"{name}.html").write_text(reference.page(title, body, f"/docs/{name}"), encoding="utf-8")
     index.write_text(reference.page("Reference", reference.index(), "/docs"), encoding="utf-8")
     for path, item in reference.asked.items():
-        page = reference.page(item["post"]["summary"], reference.endpoint(path, item), f"/docs/{name_of(path)}")
-        (folder / f"{name_of(path)}.html").write_text(page, encoding="utf-8")
+        write(name_of(path), item["post"]["summary"], reference.endpoint(path, item))
+    write("batch", "Many requests in one", reference.batch())
+    write("results", "An answer again, by its key", reference.results())
+    for name, title, body in more:
+        write(name, title, f"<h1>{escape(title)}</h1>{body}")
 
 
 if __name__ == "__main__":

@@ -10,6 +10,9 @@ const hanging = (stiffness, damping) => ({ type: 'hanging_absorber', mass_kg: 5,
 const sergev = Array.from({ length: 9 }, (_, i) => (i % 2 ? { type: 'point_mass', mass_kg: 0.00267068423802 }
   : { type: 'cable', length_m: 0.8763, mass_kg_per_m: 0.0041703705579855645 }));
 
+const riser = (length, mass, weight) => ({ length_m: length, mass_kg_per_m: mass, weight_N_per_m: weight, axial_stiffness_N: 362000000 });
+const volturn = { span_m: 779.6, rise_m: 186, length_m: 850, mass_kg_per_m: 685, weight_N_per_m: 5844.118, added_mass_kg_per_m: 73.2, axial_stiffness_N: 3270000000, bed: {} };
+
 const presets = {
   '/v1/catenary/frequencies': [
     ['A 100 m span with 110 m of cable', { span_m: 100, length_m: 110, mass_kg_per_m: 2 }],
@@ -32,6 +35,18 @@ const presets = {
     ['Grinfogel: at the first crossover, inclined by 30 degrees', { epsilon: 0.1, inclination_deg: 30, lambda_squared: 39.5, modes: 6 }],
     ['Level, at the first crossover', { epsilon: 0.1, inclination_deg: 0, lambda_squared: 39.5, modes: 6 }],
     ['Steep and heavy', { epsilon: 0.5, inclination_deg: 60, lambda_squared: 100, modes: 6 }],
+  ],
+  '/v1/cable/statics': [
+    ['A mooring line on its bed (VolturnUS-S)', volturn],
+    ['A lazy wave on the bed, with a buoyant middle', { span_m: 350, rise_m: 180, bed: {}, sections: [riser(150, 25, 140), riser(80, 59, -450), riser(440, 25, 140)] }],
+    ['A stay by its upper tension', { span_m: 300, rise_m: 120, mass_kg_per_m: 51.6, axial_stiffness_N: 1206900000, tension_end_2_N: 200000 }],
+    ['A conductor, strung at 35 kN, 75 K warmer', { span_m: 500, mass_kg_per_m: 1.8, axial_stiffness_N: 36024000, horizontal_tension_N: 35316, temperature_change_K: 75, expansion_per_K: 0.000023 }],
+  ],
+  '/v1/cable/modes': [
+    ['A stay with sag, bending stiffness and a damper', { span_m: 153.43199, rise_m: 88.584, tension_parallel_to_chord_N: 1165200, mass_kg_per_m: 51.6, axial_stiffness_N: 1206900000, bending_stiffness_N_m2: 724426,
+      end_1: { rotation: 'clamped' }, end_2: { rotation: 'clamped' }, attachments: [{ type: 'damper', position_m: 3.54336, damping_N_s_per_m: 123521 }], plane: 'in_plane', modes: 4 }],
+    ['A mooring line on its bed (VolturnUS-S)', { ...volturn, modes: 4 }],
+    ['A line with a marker ball', { span_m: 500, length_m: 500.8, mass_kg_per_m: 1.8, axial_stiffness_N: 36024000, modes: 4, attachments: [{ type: 'point_mass', position_m: 250.4, mass_kg: 50 }] }],
   ],
   '/v1/taut/modes': [
     ['Sergev and Iwan, Table 1, case 1: four equal masses', { tension_N: 26.466918610799972, components: sergev, modes: 8 }],

@@ -18,6 +18,8 @@ const FIGURES = {
   '/v1/catenary/frequencies': ['motion', 'sag', 'compare'],
   '/v1/forced/tension': ['curve', 'motion', 'profiles'],
   '/v1/inclined/modes': ['motion', 'crossover', 'hybrid', 'amplification', 'compare'],
+  '/v1/cable/statics': ['shape', 'tension'],
+  '/v1/cable/modes': ['motion', 'shape', 'compare'],
   '/v1/taut/modes': ['motion', 'compare'],
   '/v1/taut/matrix': ['t12'],
   '/v1/absorber/optimize': ['damping_ratio', 'angular_frequency_rad_per_s'],

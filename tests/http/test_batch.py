@@ -39,7 +39,7 @@ def post_batch(strumd, items, lines=False):
 def answers(response):
     assert response.status_code == 200, response.text
     assert response.headers["Content-Type"] == "application/x-ndjson"
-    lines = response.text.split("\n")
+    lines = response.content.decode().split("\n")
     assert lines.pop() == ""
     return lines
 
@@ -97,7 +97,7 @@ FAULTS = [
     (item(CHEAP, "/v1/batch"), 400, ["/path"]),
     ({"path": PATH}, 400, ["/request"]),
     ({"request": CHEAP}, 400, ["/path"]),
-    ({**item(CHEAP), "more": 1}, 400, [""]),
+    ({**item(CHEAP), "more": 1}, 400, ["/more"]),
     (item(7), 400, ["/request"]),
     (item([CHEAP]), 400, ["/request"]),
     (3, 400, [""]), ("text", 400, [""]), (None, 400, [""]), ([item(CHEAP)], 400, [""]), ({}, 400, ["/path", "/request"]),
@@ -116,6 +116,103 @@ def test_errors_stand_in_place(strumd, lines):
         assert problem["title"] and problem["detail"]
         if pointers is not None:
             assert sorted(error["pointer"] for error in problem["errors"]) == pointers, fault
+
+
+RESULT = "/result/in_plane/0/frequency_ratio"
+
+
+def reached(document, pointer):
+    """RFC 6901, by hand."""
+    for token in pointer.split("/")[1:]:
+        token = token.replace("~1", "/").replace("~0", "~")
+        document = document[int(token)] if isinstance(document, list) else document[token]
+    return document
+
+
+@pytest.mark.parametrize("lines", [False, True], ids=["array", "lines"])
+def test_an_item_may_have_an_id(strumd, lines):
+    ids = ["a", "b \"quoted\" \u00fc", 0, -7, 2**53 - 1, "x" * 128]
+    items = [{**item(cheap(n % 2)), "id": name} for n, name in enumerate(ids)]
+    for _ in range(2):  # solved, then stored
+        got = answers(post_batch(strumd, items, lines))
+        for n, (name, line) in enumerate(zip(ids, got)):
+            assert next(iter(json.loads(line))) == "id" and json.loads(line)["id"] == name
+            plain = strumd.post(cheap(n % 2)).text
+            assert line == '{"id":' + json.dumps(name, ensure_ascii=False) + "," + plain[1:]
+    faulty, = answers(post_batch(strumd, [{**item({**CHEAP, "modes": 0}), "id": "it"}], lines))
+    assert list(json.loads(faulty))[:2] == ["index", "id"] and json.loads(faulty)["id"] == "it"
+
+
+@pytest.mark.parametrize("lines", [False, True], ids=["array", "lines"])
+def test_fields_choose_what_comes_back(strumd, lines):
+    plain = strumd.post(CHEAP)
+    whole = plain.json()
+    pointers = ["", "/result", RESULT, "/result/in_plane", "/result/in_plane/5", "/result/geometry/chi_1", "/warnings", "/meta/theory",
+                "/request/plane", "/result/out_of_plane/2/symmetry", "/request/verify"]
+    items = [{**item(CHEAP), "fields": [one]} for one in pointers] + [{**item(CHEAP), "id": "all", "fields": pointers[::-1]}, item(CHEAP)]
+    for _ in range(2):
+        got = answers(post_batch(strumd, items, lines))
+        for one, line in zip(pointers, got):
+            line = json.loads(line)
+            assert line == {"fields": {one: reached(whole, one)}, "warnings": whole["warnings"], "key": whole["meta"]["key"]}
+        last = json.loads(got[-2])
+        assert list(last) == ["id", "fields", "warnings", "key"] and list(last["fields"]) == pointers[::-1]
+        assert last["fields"] == {one: reached(whole, one) for one in pointers}
+        assert got[-1] == plain.text
+    # the bytes of the answer, to the last digit
+    assert f'{{"fields":{{"{RESULT}":{json.dumps(reached(whole, RESULT))}}},' in got[2]
+
+
+def test_warnings_come_unasked(strumd):
+    request = {"tension_N": 1600, "modes": 30, "components": [
+        {"type": "cable", "length_m": 5.5, "mass_kg_per_m": 2}, {"type": "damper", "damping_N_s_per_m": 360.127},
+        {"type": "cable", "length_m": 104.5, "mass_kg_per_m": 2}]}
+    whole = strumd.post(request, "/v1/taut/modes").json()
+    assert whole["warnings"]
+    line, = answers(post_batch(strumd, [{**item(request, "/v1/taut/modes"), "fields": ["/result/modes/0/frequency_Hz"]}], False))
+    assert json.loads(line)["warnings"] == whole["warnings"]
+
+
+FIELD_FAULTS = [
+    ({"id": ""}, 400, ["/id"]), ({"id": "x" * 129}, 400, ["/id"]), ({"id": 1.5}, 400, ["/id"]), ({"id": 2**53}, 400, ["/id"]),
+    ({"id": None}, 400, ["/id"]), ({"id": [1]}, 400, ["/id"]), ({"id": True}, 400, ["/id"]),
+    ({"fields": []}, 400, ["/fields"]), ({"fields": {}}, 400, ["/fields"]), ({"fields": "/result"}, 400, ["/fields"]),
+    ({"fields": [f"/{n}" for n in range(65)]}, 400, ["/fields"]), ({"fields": ["result"]}, 400, ["/fields/0"]),
+    ({"fields": ["/a~2", "/result", "/a~"]}, 400, ["/fields/0", "/fields/2"]), ({"fields": ["/" + "x" * 256]}, 400, ["/fields/0"]),
+    ({"fields": ["/result", "/result"]}, 400, ["/fields/1"]), ({"fields": [1, None, ["/result"]]}, 400, ["/fields/0", "/fields/1", "/fields/2"]),
+    ({"id": False, "fields": ["x"], "request": {**CHEAP, "modes": 0}}, 400, ["/fields/0", "/id"]),
+    ({"fields": [RESULT, "/result/in_planes", "/result/in_plane/6", "/result/in_plane/00", "/result/in_plane/-"]}, 422,
+     ["/fields/1", "/fields/2", "/fields/3", "/fields/4"]),
+    ({"fields": ["/meta/key/0", "/", "/result/", "/x/y/z"]}, 422, ["/fields/0", "/fields/1", "/fields/2", "/fields/3"]),
+    ({"fields": ["/a/b" * 64]}, 422, ["/fields/0"]),
+]
+
+
+@pytest.mark.parametrize("more, status, pointers", FIELD_FAULTS, ids=lambda value: str(value)[:40])
+def test_faults_of_ids_and_fields_are_named(strumd, more, status, pointers):
+    before, line, after = answers(post_batch(strumd, [item(CHEAP), {**item(CHEAP), **more}, item(CHEAP)], False))
+    problem = json.loads(line)
+    assert (problem["index"], problem["status"]) == (1, status)
+    assert sorted(error["pointer"] for error in problem["errors"]) == pointers
+    assert before == after == strumd.post(CHEAP).text
+
+
+def test_what_is_there_instead_is_said(strumd):
+    fields = ["/result/in_planes", "/result/in_plane/9", "/meta/key/0", "/x"]
+    line, = answers(post_batch(strumd, [{**item(CHEAP), "id": 3, "fields": fields}], False))
+    told = [error["detail"] for error in json.loads(line)["errors"]]
+    assert told == ["the answer has no /result/in_planes; /result has geometry, in_plane, out_of_plane",
+                    "the answer has no /result/in_plane/9; /result/in_plane is a list of 6 items, from 0",
+                    "the answer has no /meta/key/0; /meta/key has nothing below it",
+                    "the answer has no /x; the answer has request, result, warnings, meta"]
+
+
+def test_a_late_item_says_its_id(start_strumd):
+    strumd = start_strumd(*ONE_WORKER, "--solve-timeout-s", "1")
+    got = [json.loads(line) for line in answers(post_batch(strumd, [{**item(ENDLESS, FORCED), "id": "late", "fields": ["/result"]},
+                                                                    {**item(CHEAP), "id": "next", "fields": [RESULT]}], False))]
+    assert (got[0]["index"], got[0]["id"], got[0]["status"]) == (0, "late", 503)
+    assert got[1]["id"] == "next" and list(got[1]["fields"]) == [RESULT]
 
 
 @pytest.mark.parametrize("text, statuses", [

@@ -423,7 +423,15 @@ def test_batches_keep_the_contract(strumd):
         for line in lines:
             assert not faults(said["responses"]["200"]["content"]["application/x-ndjson"]["schema"], line)
         assert [line.get("index") for line in lines] == [None, None, 2, 3, 4]
-    assert not faults(said["requestBody"]["content"]["application/json"]["schema"], example)
+    examples = said["requestBody"]["content"]["application/json"]["examples"]
+    for one in examples.values():
+        assert not faults(said["requestBody"]["content"]["application/json"]["schema"], one["value"])
+    chosen = examples["chosen"]["value"] + [{"path": CATENARY, "request": {"sag_parameter": 0.9}, "id": 3}] + [
+        {"path": CATENARY, "request": {"sag_parameter": 0.9}, "id": "x", "fields": ["/result/nothing"]}]
+    lines = [json.loads(line) for line in strumd.post(chosen, "/v1/batch").text.splitlines()]
+    assert [line["id"] for line in lines] == ["long", "short", 3, "x"] and lines[0]["fields"] != lines[1]["fields"]
+    for line in lines:
+        assert not faults(said["responses"]["200"]["content"]["application/x-ndjson"]["schema"], line)
     check("post", "/v1/batch", strumd.request("POST", "/v1/batch", data=b"{}", headers=JSON))
 
 

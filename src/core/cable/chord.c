@@ -3,11 +3,17 @@
 
 #include <math.h>
 
-#include "core/numerics/gauss.h"
-
 /* An arc whose weight is less than this part of its tension is integrated by Gauss' rule: its
  * tension is analytic within 20 half lengths, and six points leave (1/40)^12. */
 #define LIGHT 0.1
+
+/* Gauss and Legendre's rule of six points. */
+static const double nodes[CHORD_POINTS] = {-0.93246951420315202781, -0.66120938646626451366,
+                                           -0.23861918608319690863, 0.23861918608319690863,
+                                           0.66120938646626451366,  0.93246951420315202781};
+static const double weights[CHORD_POINTS] = {0.17132449237917034504, 0.36076157304813860757,
+                                             0.46791393457269104739, 0.46791393457269104739,
+                                             0.36076157304813860757, 0.17132449237917034504};
 
 /* a^2 as a sum of two doubles. */
 static double square(double a, double *rest)
@@ -52,7 +58,6 @@ cable_chord chord_of(const cable_line *line, double span, double rise)
         c.load += fabs(piece->arc.weight) * piece->arc.length +
                   hypot(piece->load_x, piece->load_z) + fabs(piece->jump);
     }
-    gauss_legendre(CHORD_POINTS, c.node, c.weight);
     return c;
 }
 
@@ -65,7 +70,7 @@ static void add_light(const cable_chord *c, const cable_arc *a, double p, double
     const double half = a->length / 2, elastic = a->length * a->flexibility;
     double shortfall = 0, across = 0, pp = 0, pq = 0, qq = 0;
     for (int i = 0; i < CHORD_POINTS; i++) {
-        const double s = half * (1 + c->node[i]), weight = half * c->weight[i];
+        const double s = half * (1 + nodes[i]), weight = half * weights[i];
         const double p_s = p + w_p * s, q_s = q + w_q * s;
         const double t = sqrt(p_s * p_s + q_s * q_s), cube = weight / (t * t * t);
         shortfall += weight * (p_s > 0 ? q_s * q_s / (t * (t + p_s)) : 1 - p_s / t);
@@ -79,6 +84,19 @@ static void add_light(const cable_chord *c, const cable_arc *a, double p, double
     m->pp += pp + elastic;
     m->pq += pq;
     m->qq += qq + elastic;
+}
+
+static void add_weightless(const cable_chord *c, const cable_arc *a, double p, double q,
+                           chord_miss *m)
+{
+    const double l = a->length, elastic = l * a->flexibility;
+    const double q_2 = q * q + c->rounding * c->rounding, t = sqrt(p * p + q_2);
+    const double cube = l / (t * t * t);
+    m->along += elastic * p - l * (p > 0 ? q_2 / (t * (t + p)) : 1 - p / t);
+    m->across += l * q / t + elastic * q;
+    m->pp += cube * q_2 + elastic;
+    m->pq -= cube * p * q;
+    m->qq += cube * (p * p + c->rounding * c->rounding) + elastic;
 }
 
 static void add_heavy(const cable_chord *c, const cable_arc *a, double p, double q,
@@ -131,7 +149,9 @@ chord_miss chord_reach(const cable_chord *c, double p, double q)
         step(c, piece, &p, &q, &d);
         const double tension = sqrt(p * p + q * q);
         chord_miss m = {0};
-        if (fabs(a->weight) * a->length < LIGHT * tension)
+        if (a->weight == 0)
+            add_weightless(c, a, p, q, &m);
+        else if (fabs(a->weight) * a->length < LIGHT * tension)
             add_light(c, a, p, q, &m);
         else
             add_heavy(c, a, p, q, &m);

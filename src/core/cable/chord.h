@@ -18,7 +18,9 @@ typedef struct {
     double excess;           /* unstretched length - distance */
     double flexibility;      /* SUM l/EA */
     double load;             /* SUM of the sizes of all loads: a scale of forces */
-    double node[CHORD_POINTS], weight[CHORD_POINTS];
+    /* mu: of weightless pieces |F| is taken for sqrt(F^2 + mu^2), without the corner at F = 0; 0
+     * but on the way. */
+    double rounding;
 } cable_chord;
 
 /* How far the line's end lies from end 2, and the derivatives by the force at end 1. */

@@ -251,8 +251,11 @@ strum_status ends_find(cable_settler *s, strum_cable_statics *statics, strum_err
     if (found == 0) {
         if (is_tension(p->given) && !p->bed.present && from_straight(s))
             return STRUM_OK;
+        if (count == 0 && error != NULL && error->status != STRUM_OK)
+            return error->status;
         if (count == 0)
-            return error != NULL ? error->status : STRUM_ERR_IMPOSSIBLE;
+            return error_at(error, STRUM_ERR_IMPOSSIBLE, STRUM_CABLE_ARG_VALUE, STRUM_NO_INDEX,
+                            "no unstretched length gives this");
         return none(s, tried, count, two && p->value < least.figure ? &least : NULL, error);
     }
     statics->solutions = found;

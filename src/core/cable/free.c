@@ -8,6 +8,8 @@
 #include "core/numerics/bracket.h"
 
 #define STEPS_MAX 300
+/* Longest step, in the largest tension and the load together. */
+#define STEP_MAX 4.0
 /* Estimated time of one arc, in microseconds. */
 #define ARC_US 0.1
 
@@ -149,6 +151,12 @@ static strum_status newton(const cable_chord *c, double *p, double *q, work *w)
         if (size < 4 * DBL_EPSILON || (size < rounding && size > last / 4))
             return STRUM_OK;
         last = size;
+        /* where Phi is nearly straight its curvature says nothing of how far to go */
+        const double longest = STEP_MAX * (1 + c->load / now.tension);
+        if (size > longest) {
+            step_p *= longest / size;
+            step_q *= longest / size;
+        }
         chord_miss next = chord_reach(c, *p + step_p, *q + step_q);
         for (int cut = 0; cut < 60 && !acceptable(c, &now, &next, step_p, step_q); cut++) {
             step_p /= 2;
@@ -162,10 +170,24 @@ static strum_status newton(const cable_chord *c, double *p, double *q, work *w)
     return STRUM_ERR_ACCURACY;
 }
 
+/* Where the force of a weightless piece vanishes Phi has a corner, at which Newton's method may
+ * end though the minimum lies elsewhere: the corners rounded first, then less and less. */
+static strum_status around_corners(cable_chord *c, double *p, double *q, work *w)
+{
+    chord_guess(c, p, q);
+    for (c->rounding = 0.3 * c->load; c->rounding > 1e-9 * c->load; c->rounding /= 5) {
+        const strum_status status = newton(c, p, q, w);
+        if (status != STRUM_OK && status != STRUM_ERR_ACCURACY)
+            return status;
+    }
+    c->rounding = 0;
+    return newton(c, p, q, w);
+}
+
 strum_status free_solve(const cable_line *line, double span, double rise, bool warm, double *h,
                         double *v, work *w, strum_error *error)
 {
-    const cable_chord c = chord_of(line, span, rise);
+    cable_chord c = chord_of(line, span, rise);
     if (c.flexibility == 0 && c.excess <= 0)
         return too_short(&c, error);
     strum_status status = line->has_jumps ? STRUM_OK : refuse_slack(&c, span, rise, w, error);
@@ -182,6 +204,8 @@ strum_status free_solve(const cable_line *line, double span, double rise, bool w
     else
         chord_guess(&c, &p, &q);
     status = newton(&c, &p, &q, w);
+    if (status == STRUM_ERR_ACCURACY)
+        status = around_corners(&c, &p, &q, w);
     if (status == STRUM_ERR_ACCURACY)
         return error_set(error, status,
                          "the static shape was not found: Newton's method failed");

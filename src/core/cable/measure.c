@@ -110,20 +110,29 @@ static double parallel_tension(const cable_form *f, double span, double rise)
     return NAN;
 }
 
+/* The first such point where tied, to rounding. What lies is as low as the bed is: the lowest of a
+ * cable on it is where it first lies. */
 static strum_cable_place extreme(const cable_form *f, int side)
 {
+    const double length = f->pieces[f->count - 1].start + f->pieces[f->count - 1].length;
+    const double tie = 1e-14 * length;
     strum_cable_place best = {0, 0};
+    bool lies = f->pieces->lies;
     for (size_t i = 0; i < f->count; i++) {
         const cable_piece *p = f->pieces + i;
+        if (side < 0 && p->lies && !lies && p->z <= best.z + tie) {
+            best = (strum_cable_place){p->x, p->z};
+            lies = true;
+        }
         const double s = level_at(p);
         form_state candidates[2] = {{p->x, p->z, 0, 0}, {p->x, p->z, 0, 0}};
         if (!isnan(s))
             candidates[1] = form_at(p, s);
         for (int k = 0; k < 2; k++)
-            if (side * candidates[k].z > side * best.z)
+            if (side * candidates[k].z > side * best.z + tie)
                 best = (strum_cable_place){candidates[k].x, candidates[k].z};
     }
-    return side * f->z > side * best.z ? (strum_cable_place){f->x, f->z} : best;
+    return side * f->z > side * best.z + tie ? (strum_cable_place){f->x, f->z} : best;
 }
 
 static void tensions(const cable_form *f, double *least, double *most)

@@ -24,6 +24,7 @@ typedef struct {
     size_t first; /* of its degree - 1 bubbles among all */
     size_t node;  /* its left one; the right one is the next */
     double x, z;  /* of its start */
+    double stretched;
 } rod_element;
 
 struct cable_rod {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/numerics/gauss.h"
+#include "core/numerics/linalg.h"
 
 /* Sizes of which the nodes are constants. */
 static int points_for(int degree)
@@ -84,28 +85,17 @@ static void at_points(const strum_hanging *cable, const rod_element *e, const ro
     }
 }
 
-/* The lower triangle of the stiffness [column * count + row], and the columns. */
+/* The stiffness [column * count + row], and the columns. */
 static void integrate(const strum_hanging *cable, const rod_element *e, const rod_rule *rule,
                       const fields *f, double *weighted, double *k, double *columns)
 {
     const int n = rule->points, count = e->degree + 1;
-    for (int a = 0; a < count; a++) {
-        const double *value = rule->value + a * n;
+    for (int a = 0; a < count; a++)
         for (int q = 0; q < n; q++)
-            weighted[q] = value[q] * f->stiffness[q];
-        for (int b = a; b < count; b++) {
-            double sum = 0;
-            for (int q = 0; q < n; q++)
-                sum += weighted[q] * rule->value[b * n + q];
-            k[a * count + b] = sum;
-        }
-        for (int c = 0; c < ROD_COLUMNS; c++) {
-            double sum = 0;
-            for (int q = 0; q < n; q++)
-                sum += value[q] * f->column[c][q];
-            columns[c * count + a] = sum;
-        }
-    }
+            weighted[a * n + q] = rule->value[a * n + q] * f->stiffness[q];
+    /* the columns follow the weighted functions */
+    linalg_multiply('T', 'N', count, count + ROD_COLUMNS, n, rule->value, n, weighted, n, k,
+                    count);
     /* INT EI th'^2/2: bubbles' derivatives are orthonormal */
     const double bending = cable->pieces[e->piece].section->bending_stiffness / e->half;
     const double *angle = cable->rod->angle + e->node;
@@ -190,10 +180,11 @@ rod_condensed rod_condense(const strum_hanging *cable, const rod_element *e,
 {
     const int n = rule->points, count = e->degree + 1;
     rod_condensed out = {.stable = true};
-    double *k = room, *columns = k + count * count, *weighted = columns + ROD_COLUMNS * count;
-    const fields f = {.angle = weighted + n,
-                      .stiffness = weighted + 2 * n,
-                      .column = {weighted + 3 * n, weighted + 4 * n, weighted + 5 * n}};
+    double *k = room, *columns = k + count * count;
+    double *weighted = columns + ROD_COLUMNS * count, *fields_at = weighted + n * count;
+    const fields f = {.angle = fields_at + 3 * n,
+                      .stiffness = fields_at + 4 * n,
+                      .column = {fields_at, fields_at + n, fields_at + 2 * n}};
     angles(cable, e, rule, f.angle);
     at_points(cable, e, rule, &f, &out);
     integrate(cable, e, rule, &f, weighted, k, columns);
@@ -207,4 +198,21 @@ rod_condensed rod_condense(const strum_hanging *cable, const rod_element *e,
     }
     condense(count, k, columns, solved, &out);
     return out;
+}
+
+void rod_reach(const strum_hanging *cable, const rod_element *e, const rod_rule *rule,
+               double *room, double *x, double *z, double *length)
+{
+    const cable_piece *piece = cable->pieces + e->piece;
+    angles(cable, e, rule, room);
+    *x = *z = *length = 0;
+    for (int q = 0; q < rule->points; q++) {
+        const double s = e->from + e->half * (1 + rule->x[q]), weight = e->half * rule->w[q];
+        const double c = cos(room[q]), d = sin(room[q]);
+        const double normal = piece->h * c + (piece->v + piece->section->weight * s) * d;
+        const double by = weight * (1 + normal / piece->section->axial_stiffness);
+        *x += by * c;
+        *z += by * d;
+        *length += by;
+    }
 }

@@ -33,5 +33,8 @@ strum_status rod_rule_make(int degree, arena *memory, rod_rule *rule);
 rod_condensed rod_condense(const strum_hanging *cable, const rod_element *e,
                            const rod_rule *rule, double *solved, double *room);
 size_t rod_element_room(int degree);
+/* From its start to its end, and its stretched length; `room` as above. */
+void rod_reach(const strum_hanging *cable, const rod_element *e, const rod_rule *rule,
+               double *room, double *x, double *z, double *length);
 
 #endif

@@ -5,7 +5,6 @@
 #include "core/cable/form.h"
 #include "core/cable/rod.h"
 #include "core/numerics/bracket.h"
-#include "core/numerics/gauss.h"
 
 /* Parts of an element, or of a piece that does not bend, between which a figure changes sign once
  * at most. */
@@ -107,18 +106,11 @@ static void measure_stretch(strum_hanging *cable, size_t piece, double from, dou
 
 /* ---- lengths ---- */
 
-static double stretched(const strum_hanging *cable, size_t piece, double from, double to)
+static double stretched(const strum_hanging *cable, size_t piece, size_t k)
 {
-    enum { POINTS = 32 };
-    double node[POINTS], weight[POINTS], sum = 0;
-    const double half = (to - from) / 2;
     if (!rod_bends(cable, piece))
         return form_stretched(cable->pieces + piece, cable->pieces[piece].length);
-    gauss_legendre(POINTS, node, weight);
-    for (int i = 0; i < POINTS; i++)
-        sum +=
-            half * weight[i] * rod_at(cable, piece, from + half * (1 + node[i]), false).stretch;
-    return sum;
+    return cable->rod->elements[cable->rod->first[piece] + k].stretched;
 }
 
 /* Chord less cable at half the span, at the first place there. `x`: of the ends. */
@@ -190,7 +182,7 @@ void rod_measure(strum_hanging *cable, double span)
             begin_of(cable, i, k, x, &z);
             begin_of(cable, i, k + 1, x + 1, &z);
             take(f, x[1], z, span, f->rise);
-            f->length += stretched(cable, i, place[0], place[1]);
+            f->length += stretched(cable, i, k);
             if (span > 0)
                 sag_mid(cable, i, place, x);
         }

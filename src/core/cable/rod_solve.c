@@ -8,9 +8,9 @@
 #include "core/cable/rod.h"
 #include "core/cable/rod_element.h"
 
-#define STEPS_MAX    80
+#define STEPS_MAX    40
 #define TURN_MAX     0.3 /* largest step of an angle, in radians */
-#define HALVINGS_MAX 4
+#define HALVINGS_MAX 3
 /* Of the largest angle: what the last bubbles of an element may be. */
 #define TAIL 1e-10
 /* Estimated time of an element, in microseconds. */
@@ -323,8 +323,9 @@ static bool resolved(const cable_rod *rod)
     return true;
 }
 
-static void place_all(strum_hanging *cable)
+static void place_all(const solver *s)
 {
+    strum_hanging *cable = s->cable;
     double x = 0, z = 0;
     for (size_t i = 0; i < cable->piece_count; i++) {
         cable_piece *piece = cable->pieces + i;
@@ -340,9 +341,10 @@ static void place_all(strum_hanging *cable)
             rod_element *e = cable->rod->elements + k;
             e->x = x;
             e->z = z;
-            const rod_point end = rod_at(cable, i, e->from + 2 * e->half, true);
-            x = end.x;
-            z = end.z;
+            double dx, dz;
+            rod_reach(cable, e, s->rules + e->degree, s->room, &dx, &dz, &e->stretched);
+            x += dx;
+            z += dz;
         }
     }
     cable->stations[cable->piece_count].x = x;
@@ -365,6 +367,8 @@ static strum_status attempt(strum_hanging *cable, double span, int halvings, wor
     }
     if (status == STRUM_OK)
         status = newton(s, angle, &scratch);
+    if (status == STRUM_OK)
+        place_all(s);
     arena_free(&scratch);
     return status;
 }
@@ -392,6 +396,5 @@ strum_status rod_settle(strum_hanging *cable, double span, work *w, strum_error 
                          "the static shape with bending stiffness was not found");
     if (status != STRUM_OK)
         return work_result(w, status, error);
-    place_all(cable);
     return STRUM_OK;
 }

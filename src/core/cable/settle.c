@@ -58,12 +58,28 @@ strum_status settle(cable_settler *s, strum_error *error)
     return bed_settle(&s->line, s->cable, s->span, h, v, &s->form, s->touching, s->work, error);
 }
 
+/* Nothing turns a cable without load between ends that let it lie straight. */
+static bool is_straight(const strum_hanging *cable)
+{
+    const strum_cable_params *p = &cable->params;
+    bool loaded = false;
+    for (size_t i = 0; i < p->attachment_count; i++) {
+        const strum_cable_attachment *a = &cable->attachments[i];
+        loaded = loaded || a->weight != 0 || a->force_x != 0 || a->force_z != 0 || a->jump != 0;
+    }
+    for (size_t i = 0; i < p->section_count; i++)
+        loaded = loaded || cable->sections[i].weight != 0;
+    const bool free_1 = p->end_1.rotation == STRUM_CABLE_PINNED || isnan(p->end_1.angle);
+    const bool free_2 = p->end_2.rotation == STRUM_CABLE_PINNED || isnan(p->end_2.angle);
+    return !loaded && free_1 && free_2;
+}
+
 bool settle_bends(const strum_hanging *cable)
 {
     bool any = false;
     for (size_t i = 0; i < cable->params.section_count; i++)
         any = any || cable->sections[i].bending_stiffness > 0;
-    return any && cable->params.stiff;
+    return any && cable->params.stiff && !is_straight(cable);
 }
 
 /* Pieces, stations and figures of the form as it is. */

@@ -318,7 +318,7 @@ void stiffness_loss(const motion *m, const double *x, double *y)
         const strum_cable_section *section = m->cable->pieces[e->piece].section;
         motion_add((size_t)e->strains, section->axial_loss, x + e->strain, y + e->strain);
         const double stiff = e->bending / e->half * section->bending_loss;
-        if (!(stiff > 0))
+        if (!(stiff > 0) || e->rotations < 2)
             continue;
         const double left = e->left < 0 ? 0 : x[e->left],
                      right = e->right < 0 ? 0 : x[e->right];

@@ -162,6 +162,10 @@ bool unknown_solve(cable_settler *s, double h, double v)
     const double begin = unknown_now(s);
     double x[EQUATIONS] = {h, v, begin}, last = INFINITY;
     state at = state_at(s, x);
+    /* A straight inextensible cable without load closes for every force along it: no step is left
+     * to take, nor any that could be. */
+    if (size_of(&at) <= 2 * DBL_EPSILON)
+        return true;
     for (int i = 0; i < STEPS_MAX && isfinite(size_of(&at)); i++) {
         if (work_spend(s->work, STEP_US * (double)s->line.count) != STRUM_OK)
             break;

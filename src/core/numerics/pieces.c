@@ -27,6 +27,8 @@ static int least_of(int a, int b)
 
 strum_status pieces_gram(int n, int rows, const double *a, int lda, double *c, int ldc, work *w)
 {
+    if (n == 0) /* BLAS would print that the leading dimension 0 is none */
+        return STRUM_OK;
     if ((double)n * n * rows < GRAM_LONG) {
         const strum_status status = work_poll(w);
         if (status == STRUM_OK)

@@ -117,6 +117,7 @@ static void write_figures(json_writer *json, const strum_cable_statics *s)
     json_put_number(json, "length_m", s->length);
     put_finite(json, "sag_mid_m", s->sag_mid);
     put_finite(json, "sag_max_m", s->sag_max);
+    json_put_number(json, "depth_below_end_1_m", 0 - s->lowest.z);
     json_put_number(json, "angle_end_1_deg", degrees(s->angle_end_1));
     json_put_number(json, "angle_end_2_deg", degrees(s->angle_end_2));
     write_place(json, "lowest_point", s->lowest);

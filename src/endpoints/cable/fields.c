@@ -5,7 +5,7 @@
 
 static const char *const rotations[] = {"pinned", "clamped", NULL};
 const char *const hung_branches[] = {"taut", "slack", NULL};
-const char *const hung_statics[] = {"stiff", "flexible", NULL};
+const char *const hung_statics[] = {"flexible", "stiff", NULL};
 
 #define NUMBER(type, member, unit_, min_, max_, flags_, help_)                                 \
     {                                                                                          \

@@ -51,7 +51,7 @@ typedef struct hung_input {
     const char *given_pointer;      /* of the quantity that is given beside span and lengths */
 } hung_input;
 
-enum { HUNG_STIFF, HUNG_FLEXIBLE }; /* hung_input.statics */
+enum { HUNG_FLEXIBLE, HUNG_STIFF }; /* hung_input.statics */
 
 extern const variant hung_attachments[];
 extern const schema hung_end_schema, hung_hanger_schema, hung_bed_schema;
@@ -113,8 +113,9 @@ extern const char *const hung_section_groups[], *const hung_given_groups[];
     {FIELD_AT(FIELD_OBJECT, hung_input, end_2), .schema = &hung_end_schema,                    \
      .flags = FIELD_DEFAULT, .help = "how end 2 is held"},                                     \
     {FIELD_AT(FIELD_CHOICE, hung_input, statics), .choices = hung_statics,                     \
-     .help = "stiff: bending stiffness shapes the cable (the default where there is any); "    \
-             "flexible: the elastic catenary"},                                                \
+     .flags = FIELD_DEFAULT, .fallback = HUNG_FLEXIBLE,                                        \
+     .help = "flexible: the elastic catenary, about which bending stiffness acts; stiff: "     \
+             "bending stiffness shapes the cable too"},                                        \
     {FIELD_AT(FIELD_INTEGER, hung_input, spans), .min = 1, .max = STRUM_CABLE_SPANS_MAX,       \
      .flags = FIELD_DEFAULT, .fallback = 1,                                                    \
      .help = "so many equal level spans in a row, each as described, with hangers between"},   \

@@ -56,17 +56,31 @@ static size_t plane_count(const request *r)
     return r->plane == PLANE_BOTH ? 2 : 1;
 }
 
+/* Damping along the cable, which the reduced model has as a full matrix. */
+static bool drags(const strum_cable_params *p)
+{
+    for (size_t i = 0; i < p->section_count; i++) {
+        const strum_cable_section *s = &p->sections[i];
+        if (s->axial_loss > 0 || s->bending_loss > 0 || s->drag_normal > 0 ||
+            s->drag_tangential > 0)
+            return true;
+    }
+    return false;
+}
+
 /* Measured, tests/bench/costs. */
 static double cost_us(const void *data)
 {
     const request *r = data;
     const strum_cable_params *p = &r->in.params;
-    const double modes = (double)r->modes, bed = p->bed.present ? 2 : 1;
-    const double pieces = (double)(p->section_count + p->attachment_count);
-    const double unknowns =
-        (60 + 12 * modes) * (1 + 0.3 * pieces) * (p->stiff ? 2.5 : 1) * (double)p->spans;
-    const double solve = unknowns * (2 + 0.15 * modes) + 12 * modes * (double)r->shape_points;
-    return hung_cost_us(&r->in, (size_t)r->shape_points) + bed * solve * (double)plane_count(r);
+    const double modes = (double)r->modes,
+                 pieces = (double)(p->section_count + p->attachment_count);
+    double plane = (350 + 250 * modes * (1 + pow(modes / 60, 3))) * (0.75 + 0.25 * pieces) *
+                   (double)p->spans;
+    plane *= (p->stiff ? 2 : 1) * (p->bed.present ? 8 : 1) * (drags(p) ? 10 : 1);
+    plane *= r->compare ? 4 : 1;
+    return hung_cost_us(&r->in, (size_t)r->shape_points) +
+           (double)plane_count(r) * (plane + 1.7 * modes * (double)r->shape_points);
 }
 
 static double answer_bytes(const void *data, const char **pointer)

@@ -232,16 +232,11 @@ static void prepare_spans(const schema *s, hung_input *in, problem *p)
     }
 }
 
-/* Bending stiffness shapes the cable where there is any, unless the caller leaves it out. */
-static void prepare_statics(const schema *s, hung_input *in)
+static void prepare_statics(hung_input *in)
 {
     bool stiff = false;
     for (size_t i = 0; i < in->params.section_count; i++)
         stiff = stiff || in->params.sections[i].bending_stiffness > 0;
-    if (!FIELD_GIVEN(s, in, statics)) {
-        in->statics = stiff ? HUNG_STIFF : HUNG_FLEXIBLE;
-        FIELD_GIVE(s, in, statics);
-    }
     in->params.stiff = stiff && in->statics == HUNG_STIFF;
 }
 
@@ -256,7 +251,7 @@ void hung_prepare(const schema *s, hung_input *in, schema_arena *arena, problem 
     in->params.end_1 = end_of(&in->end_1, "/end_1/angle_deg", p);
     in->params.end_2 = end_of(&in->end_2, "/end_2/angle_deg", p);
     prepare_spans(s, in, p);
-    prepare_statics(s, in);
+    prepare_statics(in);
     in->params.temperature_change = in->temperature_change_K;
     in->params.expansion = in->expansion_per_K;
     in->params.taken_in = in->taken_in_m;

@@ -7,9 +7,9 @@
 
 #include "http/api/solve_handler.h"
 #include "http/service/clock.h"
+#include "http/api/batch_item.h"
 #include "http/api/batch_reader.h"
 #include "http/api/reply.h"
-#include "validation/registry.h"
 
 /* Limits on items started but not yet sent: their number, and the bytes of their answers. */
 #define WINDOW       64
@@ -36,7 +36,8 @@ typedef struct slot {
     const char *bytes; /* of the item */
     size_t size;
     slot_state state;
-    entry *outcome; /* referenced; NULL when done: memory ran out */
+    batch_item item; /* the worker's until it waits or is done */
+    entry *outcome;  /* referenced; NULL when done: memory ran out */
 } slot;
 
 typedef struct runner {
@@ -69,6 +70,7 @@ static slot *slot_of(batch *b, size_t index)
 static void finish(slot *s, entry *outcome)
 {
     batch *b = s->batch;
+    outcome = batch_item_outcome(&s->item, outcome);
     pthread_mutex_lock(&b->lock);
     s->outcome = outcome;
     s->state = SLOT_DONE;
@@ -87,44 +89,22 @@ static void wake(waiter *w, entry *outcome)
     stream_unref(&b->stream);
 }
 
-/* Reads {"path", "request"}; returns the endpoint, or NULL with the faults in `p`. */
-static const endpoint *read_members(const page *pages, const cJSON *item, const cJSON **asked,
-                                    problem *p)
-{
-    const endpoint *e = NULL;
-    *asked = NULL;
-    if (!cJSON_IsObject(item)) {
-        problem_add(p, "", "an item is an object with \"path\" and \"request\"");
-        return NULL;
-    }
-    const cJSON *path = cJSON_GetObjectItemCaseSensitive(item, "path");
-    *asked = cJSON_GetObjectItemCaseSensitive(item, "request");
-    if (!cJSON_IsString(path)) {
-        problem_add(p, "/path", "needed: the path of an endpoint, such as %s",
-                    endpoints[0]->path);
-    } else if (!(e = endpoint_find(path->valuestring))) {
-        const char *near = route_near(pages, path->valuestring);
-        const bool is_endpoint = near && endpoint_find(near);
-        problem_add(p, "/path", "no endpoint%s%s", is_endpoint ? "; did you mean " : "",
-                    is_endpoint ? near : "");
-    }
-    if (!*asked)
-        problem_add(p, "/request", "needed: what POST would send there");
-    if (cJSON_GetArraySize(item) > (path != NULL) + (*asked != NULL))
-        problem_add(p, "", "an item has the members \"path\" and \"request\" only");
-    return p->status ? NULL : e;
-}
-
-static evaluation *read_item(const slot *s, problem *p)
+static evaluation *read_item(slot *s, problem *p)
 {
     const settings *set = s->batch->service->settings;
-    const json_limits limits = {.depth = (int)set->json_depth + 1,
-                                .values = (int)set->json_values + 2};
+    const json_limits limits = {.depth = (int)set->json_depth + BATCH_ITEM_DEPTH,
+                                .values = (int)set->json_values + BATCH_ITEM_VALUES};
     cJSON *document;
     const cJSON *asked;
     if (!json_read(s->bytes, s->size, &limits, &document, p))
         return NULL;
-    const endpoint *e = read_members(s->batch->service->pages, document, &asked, p);
+    const endpoint *e =
+        batch_item_read(s->batch->service->pages, document, &s->item, &asked, p);
+    /* By the bytes of an item that is not plain no answer may be found: its line is another. */
+    static const char not_plain;
+    if (!batch_item_is_plain(&s->item))
+        cache_key_of_body(s->batch->service->cache, &not_plain, s->bytes, s->size,
+                          &s->waiter.raw);
     evaluation *a = NULL;
     if (e) {
         a = evaluation_read_item(e, asked, p);
@@ -208,6 +188,7 @@ static slot *begin_item(batch *b, runner *r)
     pthread_mutex_lock(&b->lock);
     if (has_room(b)) {
         s = slot_of(b, b->begun);
+        batch_item_free(&s->item);
         *s = (slot){.batch = b, .index = b->begun++, .state = SLOT_BEGUN};
         (void)batch_reader_next(&b->items, &s->bytes, &s->size);
     } else {
@@ -249,7 +230,8 @@ static void start_runners(batch *b)
 
 /* ---- the event thread ---- */
 
-static void write_line(size_t index, const entry *outcome, const char *given_up, strbuf *out)
+static void write_line(size_t index, const slot *s, const entry *outcome, const char *given_up,
+                       strbuf *out)
 {
     if (outcome && outcome->status == 200) {
         strbuf_add(out, outcome->body, outcome->size);
@@ -262,6 +244,8 @@ static void write_line(size_t index, const entry *outcome, const char *given_up,
             problem_write(&why, NULL, &body);
         problem_clear(&why);
         strbuf_format(out, "{\"index\":%zu,", index);
+        if (!outcome && s && s->item.id)
+            strbuf_format(out, "\"id\":%s,", s->item.id);
         if (outcome)
             strbuf_add(out, outcome->body + 1, outcome->size - 1);
         else if (body.failed)
@@ -298,7 +282,8 @@ static stream_turn write_rest(batch *b, const char *given_up)
     while (b->sent < b->total && out->size < LINES_SIZE) {
         slot *s = slot_of(b, b->sent);
         const bool begun = b->sent < b->begun, done = begun && s->state == SLOT_DONE;
-        write_line(b->sent, done ? s->outcome : NULL, given_up, out);
+        const bool read = begun && s->state != SLOT_BEGUN;
+        write_line(b->sent, read ? s : NULL, done ? s->outcome : NULL, given_up, out);
         b->sent++;
     }
     pthread_mutex_unlock(&b->lock);
@@ -316,7 +301,7 @@ static bool give_up_one(batch *b, const char *why)
     begun = b->sent < b->begun;
     if (begun && s->state == SLOT_WAITING && cache_release(b->service->cache, &s->waiter)) {
         left = true;
-        write_line(b->sent, NULL, why, &st->out);
+        write_line(b->sent, s, NULL, why, &st->out);
         s->state = SLOT_FREE;
         b->sent++;
     }
@@ -346,7 +331,7 @@ static stream_turn next(stream *st)
     pthread_mutex_lock(&b->lock);
     for (slot *s = slot_of(b, b->sent); s->state == SLOT_DONE && st->out.size < LINES_SIZE;
          s = slot_of(b, b->sent)) {
-        write_line(b->sent, s->outcome, NULL, &st->out);
+        write_line(b->sent, s, s->outcome, NULL, &st->out);
         b->bytes -= s->outcome ? s->outcome->size : 0;
         entry_unref(s->outcome);
         s->outcome = NULL;
@@ -364,8 +349,10 @@ static stream_turn next(stream *st)
 static void free_batch(stream *st)
 {
     batch *b = (batch *)(void *)st;
-    for (size_t i = 0; i < WINDOW; i++)
+    for (size_t i = 0; i < WINDOW; i++) {
         entry_unref(b->slots[i].outcome);
+        batch_item_free(&b->slots[i].item);
+    }
     pthread_mutex_destroy(&b->lock);
     strbuf_clear(&b->body);
     free(b);
