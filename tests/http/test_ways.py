@@ -134,3 +134,31 @@ def test_refused(strumd, more, pointers):
     response = strumd.post(CABLE | more, FORCED)
     assert response.status_code == 400, response.text
     assert [error["pointer"] for error in response.json()["errors"]] == pointers, response.text
+
+
+ROUND = {"diameter_m": .1, "material_density_kg_per_m3": 5000, "fluid_density_kg_per_m3": 1025, "added_mass_coefficient": 1}
+AREA = math.pi / 4 * .1 ** 2
+MASSES = {"mass_kg_per_m": 5000 * AREA, "weight_N_per_m": 9.80665 * (5000 - 1025) * AREA, "added_mass_kg_per_m": 1025 * AREA}
+
+
+@pytest.mark.parametrize("path, more", [
+    (CATENARY, {"span_m": 100, "rise_m": 20, "length_m": 110}),
+    (CATENARY, {"span_m": 100, "sag_mid_m": 5, "axial_stiffness_N": 1e8}),
+    (CATENARY, {"span_m": 100, "tension_end_2_N": 1e5}),
+    (FORCED, {"span_m": 100, "length_m": 110, "frequencies_Hz": [.3]}),
+    (INCLINED, {"length_m": 100, "tension_N": 1e5, "inclination_deg": 30, "inextensible": True}),
+    (INCLINED, {"span_m": 100, "rise_m": 20, "sag_max_m": 4, "axial_stiffness_N": 1e8})])
+def test_round_cable(strumd, path, more):
+    same(strumd, path, more | MASSES, more | ROUND,
+         more | ROUND | {"mass_kg_per_m": 5000 * AREA})
+
+
+@pytest.mark.parametrize("more, pointer", [
+    ({"material_density_kg_per_m3": 900}, "/fluid_density_kg_per_m3"), ({"weight_N_per_m": 1}, "/weight_N_per_m"),
+    ({"mass_kg_per_m": 1}, "/mass_kg_per_m"), ({"added_mass_kg_per_m": 1}, "/added_mass_kg_per_m")])
+def test_round_cable_refused(strumd, more, pointer):
+    for path, cable in ((CATENARY, {"span_m": 100, "length_m": 110}),
+                        (INCLINED, {"length_m": 100, "tension_N": 1e5, "inclination_deg": 30, "inextensible": True})):
+        response = strumd.post(cable | ROUND | more, path)
+        assert response.status_code == 400, response.text
+        assert pointer in [error["pointer"] for error in response.json()["errors"]], response.text

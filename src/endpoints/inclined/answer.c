@@ -78,13 +78,6 @@ static void write_crossover(json_writer *json, const inclined_request *r)
     json_close_object(json);
 }
 
-void inclined_write_frequency(json_writer *json, const inclined_request *r, double kl)
-{
-    json_put_number(json, "kl_over_pi", kl / M_PI);
-    if (r->rad_per_s > 0)
-        put_frequency(json, kl * r->rad_per_s);
-}
-
 static void write_mode(json_writer *json, const inclined_request *r,
                        const strum_inclined_mode *mode)
 {

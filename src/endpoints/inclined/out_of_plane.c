@@ -7,6 +7,13 @@
 #include "endpoints/common/suspended_cable.h"
 #include "endpoints/inclined/answer.h"
 
+void inclined_write_frequency(json_writer *json, const inclined_request *r, double kl)
+{
+    json_put_number(json, "kl_over_pi", kl / M_PI);
+    if (r->rad_per_s > 0)
+        put_frequency(json, kl * r->rad_per_s);
+}
+
 /* About the same profile as the in-plane modes; masses in M, forces in H. */
 static strum_modes_params params_of(const inclined_request *r)
 {

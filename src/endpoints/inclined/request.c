@@ -93,6 +93,7 @@ static const field fields[] = {
     {FIELD_AT(FIELD_NUMBER, inclined_request, depth_below_end_1_m), .unit = "m", .min = 0,
      .max = 1e6, .flags = FIELD_OPEN_MIN,
      .help = "of the lowest point, where it lies between the ends"},
+    ROUND_FIELDS(inclined_request, round),
     {FIELD_AT(FIELD_CHOICE, inclined_request, branch), .choices = cable_branches,
      .help =
          "of the two shapes with one tension at an end: taut, the shorter (default), or slack"},
@@ -101,20 +102,22 @@ static const field fields[] = {
     {.kind = FIELD_END}};
 
 /* clang-format off */
+#define MASSES "[weight_N_per_m] [added_mass_kg_per_m] [diameter_m] [material_density_kg_per_m3] " \
+    "[fluid_density_kg_per_m3] [added_mass_coefficient]"
 static const char *const cable_groups[] = {
     "epsilon inclination_deg [mass_ratio]",
-    "length_m mass_kg_per_m tension_N inclination_deg [weight_N_per_m] [added_mass_kg_per_m]",
-    "length_m mass_kg_per_m horizontal_tension_N inclination_deg [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] length_m mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] stretched_length_m mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] horizontal_tension_N mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] tension_end_1_N [branch] mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] tension_end_2_N [branch] mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] tension_parallel_to_chord_N mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] catenary_parameter_m mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] sag_mid_m mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] sag_max_m mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
-    "span_m [rise_m] depth_below_end_1_m mass_kg_per_m [weight_N_per_m] [added_mass_kg_per_m]",
+    "length_m [mass_kg_per_m] tension_N inclination_deg " MASSES,
+    "length_m [mass_kg_per_m] horizontal_tension_N inclination_deg " MASSES,
+    "span_m [rise_m] length_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] stretched_length_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] horizontal_tension_N [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] tension_end_1_N [branch] [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] tension_end_2_N [branch] [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] tension_parallel_to_chord_N [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] catenary_parameter_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] sag_mid_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] sag_max_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] depth_below_end_1_m [mass_kg_per_m] " MASSES,
     NULL};
 /* clang-format on */
 static const char *const stiffness_groups[] = {
@@ -131,6 +134,23 @@ const schema inclined_schema = {.name = "inclined_modes_request",
 
 static void complete_metres(inclined_request *r, problem *p)
 {
+    const schema *s = &inclined_schema;
+    const round_masses masses = {INCLINED_GRAVITY,
+                                 &r->mass_kg_per_m,
+                                 &r->weight_N_per_m,
+                                 &r->added_mass_kg_per_m,
+                                 FIELD_GIVEN(s, r, mass_kg_per_m),
+                                 FIELD_GIVEN(s, r, weight_N_per_m)};
+    if (round_complete(&r->round, &masses, p) && p->status == 0) {
+        FIELD_GIVE(s, r, mass_kg_per_m);
+        FIELD_GIVE(s, r, weight_N_per_m);
+    }
+    if (p->status == 0 && !FIELD_GIVEN(s, r, mass_kg_per_m))
+        problem_add(p, "/mass_kg_per_m",
+                    "missing: the cable by length_m needs it, or diameter_m with "
+                    "material_density_kg_per_m3");
+    if (p->status != 0)
+        return;
     if (!FIELD_GIVEN(&inclined_schema, r, weight_N_per_m)) {
         r->weight_N_per_m = r->mass_kg_per_m * INCLINED_GRAVITY;
         FIELD_GIVE(&inclined_schema, r, weight_N_per_m);
@@ -210,7 +230,8 @@ void inclined_prepare(void *data, schema_arena *arena, problem *p)
     if (r->shape_points == 1)
         problem_add(p, "/shape_points",
                     "must be 0 or at least 2, so that both ends are among them");
-    const bool metres = FIELD_GIVEN(&inclined_schema, r, mass_kg_per_m);
+    const bool metres =
+        FIELD_GIVEN(&inclined_schema, r, length_m) || FIELD_GIVEN(&inclined_schema, r, span_m);
     r->cable = (strum_inclined_cable){.epsilon = r->epsilon,
                                       .inclination = r->inclination_deg * M_PI / 180,
                                       .mass_ratio = r->mass_ratio,

@@ -6,6 +6,7 @@
 
 #include <strum/inclined.h>
 
+#include "endpoints/common/round.h"
 #include "endpoints/endpoint.h"
 
 #define INCLINED_GRAVITY 9.80665
@@ -21,6 +22,7 @@ typedef struct inclined_request {
     double epsilon, mass_ratio, inclination_deg, lambda_squared;
     double length_m, mass_kg_per_m, added_mass_kg_per_m, weight_N_per_m;
     double tension_N, horizontal_tension_N, axial_stiffness_N;
+    round_input round;
     double span_m, rise_m, stretched_length_m, tension_end_1_N, tension_end_2_N;
     double tension_parallel_to_chord_N, catenary_parameter_m;
     double sag_mid_m, sag_max_m, depth_below_end_1_m;

@@ -31,11 +31,17 @@ static const figure figures[] = {
     FIGURE(stretched_length_m, STRUM_CABLE_STRETCHED_LENGTH),
 };
 
+/* All are above 0 where they are given. */
+static double value_of(const inclined_request *r, const figure *f)
+{
+    return *(const double *)(const void *)((const char *)r + f->offset);
+}
+
 static const figure *figure_of(const inclined_request *r)
 {
     const size_t count = sizeof figures / sizeof *figures;
     size_t i = 0;
-    while (i + 1 < count && !field_given_at(&inclined_schema, r, figures[i].offset))
+    while (i + 1 < count && !(value_of(r, &figures[i]) > 0))
         i++;
     return &figures[i];
 }
@@ -49,9 +55,8 @@ const char *inclined_figure_pointer(const inclined_request *r)
 static strum_status hang(inclined_request *r, const figure *f, strum_cable_statics *statics,
                          strum_error *error)
 {
-    const bool elastic =
-        r->cable.elastic_statics && FIELD_GIVEN(&inclined_schema, r, axial_stiffness_N);
-    const double value = *(const double *)(const void *)((const char *)r + f->offset);
+    const bool elastic = r->cable.elastic_statics && r->axial_stiffness_N > 0;
+    const double value = value_of(r, f);
     strum_cable_section section = STRUM_CABLE_SECTION_INIT;
     section.mass = r->mass_kg_per_m;
     section.weight = r->weight_N_per_m;
@@ -85,8 +90,7 @@ void inclined_span(inclined_request *r, problem *p)
                     "the chord is %.4g degrees steep, above %g: /v1/cable/modes "
                     "answers steep and vertical cables",
                     angle * 180 / M_PI, STRUM_INCLINATION_MAX_DEG);
-    if (r->cable.elastic_statics && !FIELD_GIVEN(&inclined_schema, r, axial_stiffness_N) &&
-        !r->inextensible)
+    if (r->cable.elastic_statics && !(r->axial_stiffness_N > 0) && !r->inextensible)
         problem_add(p, "/axial_stiffness_N", "is needed with statics elastic and span_m");
     if (p->status != 0)
         return;
