@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "endpoints/common/chain_part.h"
+#include "endpoints/common/chain.h"
 #include "endpoints/common/members.h"
 
 #include <math.h>

@@ -5,28 +5,8 @@
 #ifndef ENDPOINTS_COMMON_CHAIN_H
 #define ENDPOINTS_COMMON_CHAIN_H
 
-#include <strum/taut.h>
-
+#include "endpoints/common/chain_part.h"
 #include "endpoints/endpoint.h"
-
-/* Where a component was sent: entry of the list, and of the group that it is. */
-typedef struct chain_place {
-    size_t entry, inner;
-    bool grouped;
-} chain_place;
-
-/* First member of a request struct, so that the offsets of CHAIN_FIELDS hold there too. */
-typedef struct chain_input {
-    field_set given;
-    variable_value tension_N;
-    objects_value components; /* of object_item */
-    int left_end, right_end;
-
-    /* computed by chain_prepare: the components one by one, groups and repeats written out */
-    object_item *parts;
-    chain_place *places;
-    size_t part_count;
-} chain_input;
 
 extern const variant chain_variants[];
 extern const char *const chain_ends[];

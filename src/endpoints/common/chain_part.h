@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A component of a chain as it is read: what chain.c and chain_repeat.c share; nobody else includes
- * it. */
+/* A component of a chain as it is read: what chain.c and chain_repeat.c share. */
 #ifndef ENDPOINTS_COMMON_CHAIN_PART_H
 #define ENDPOINTS_COMMON_CHAIN_PART_H
 
-#include "endpoints/common/chain.h"
+#include <strum/taut.h>
+
+#include "schema/schema.h"
 
 typedef struct chain_repeat {
     field_set given;
@@ -35,6 +36,25 @@ typedef struct chain_part {
     objects_value links, joints, components;
     chain_repeat repeat;
 } chain_part;
+
+/* Where a component was sent: entry of the list, and of the group that it is. */
+typedef struct chain_place {
+    size_t entry, inner;
+    bool grouped;
+} chain_place;
+
+/* First member of a request struct, so that the offsets of CHAIN_FIELDS hold there too. */
+typedef struct chain_input {
+    field_set given;
+    variable_value tension_N;
+    objects_value components; /* of object_item */
+    int left_end, right_end;
+
+    /* computed by chain_prepare: the components one by one, groups and repeats written out */
+    object_item *parts;
+    chain_place *places;
+    size_t part_count;
+} chain_input;
 
 /* Rows of chain_variants. */
 enum {
