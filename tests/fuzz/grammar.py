@@ -36,6 +36,14 @@ GIVEN = ("horizontal_tension_N", "tension_end_1_N", "tension_end_2_N", "tension_
          "catenary_parameter_m", "sag_mid_m", "sag_max_m", "depth_below_end_1_m", "angle_end_1_deg", "angle_end_2_deg")
 
 
+# frequencies in Hz, rad/s and s
+BANDS = ("band_rad_per_s", "band_Hz", "band_s")
+RANGES = (("frequency_min_Hz", "frequency_max_Hz"), ("angular_frequency_min_rad_per_s", "angular_frequency_max_rad_per_s"),
+          ("period_min_s", "period_max_s"))
+FREQUENCIES = {"frequencies_Hz": 2 * math.pi, "angular_frequencies_rad_per_s": 1, "periods_s": -2 * math.pi,
+               "profiles_at_Hz": 2 * math.pi, "profiles_at_rad_per_s": 1, "profiles_at_s": -2 * math.pi}
+
+
 def digits(value, count):
     return float(f"{value:.{count}g}") if math.isfinite(value) else value
 
@@ -179,13 +187,15 @@ class Tidy:
         self.company(request)
         if "span_m" in request:
             self.length(request)
-        for low, high in (("xi_1", "xi_2"), ("chi_1", "chi_2"), ("frequency_ratio_min", "frequency_ratio_max")):
+        for low, high in (("xi_1", "xi_2"), ("chi_1", "chi_2"), ("frequency_ratio_min", "frequency_ratio_max"), *RANGES):
             if low in request and high in request and request[low] > request[high]:
                 request[low], request[high] = request[high], request[low]
         if "profiles_at" in request:
             self.profiles(request)
+        self.repeats(request.get("components", ()))
         for part in request.get("components", ()):
-            self.part(part)
+            for one in (part, *part.get("components", ())):
+                self.part(one)
         if path == "/v1/absorber/optimize":
             self.variables(request)
 
@@ -198,8 +208,9 @@ class Tidy:
             request.setdefault("mass_kg_per_m", 2)
         if request.get("inextensible") is False and not {"lambda_squared", "axial_stiffness_N"} & set(request):
             request["inextensible"] = True
-        if len(request.get("band_rad_per_s", ())) == 2:  # few modes as a rule
-            request["band_rad_per_s"][1] = min(1e9, request["band_rad_per_s"][0] * (1 + 10 ** self.rng.uniform(-3, 0)))
+        for name in BANDS:
+            if len(request.get(name, ())) == 2:  # few modes as a rule
+                request[name][1] = min(1e8, request[name][0] * (1 + 10 ** self.rng.uniform(-3, 0)))
 
     def hanging(self, request):
         """A cable as it hangs: one length open where a tension, sag or angle is given, places on the cable."""
@@ -259,13 +270,23 @@ class Tidy:
 
     def length(self, request):
         span, rise = request["span_m"], request.get("rise_m", 0)
-        for name in ("length_m", "unstretched_length_m"):
+        for name in ("length_m", "unstretched_length_m", "stretched_length_m"):
             if name in request and request[name] <= math.hypot(span, rise) and self.rng.random() < .9:
                 request[name] = min(1e7, math.hypot(span, rise) * (1 + 10 ** self.rng.uniform(-12, 1)))
 
     def profiles(self, request):
         at = request.get("frequency_ratios") or [request.get("frequency_ratio_min", 0), request.get("frequency_ratio_max", 1)]
         request["profiles_at"] = [self.rng.choice(at) for _ in request["profiles_at"]][:3]
+
+    def repeats(self, parts):
+        """A few of each; a spacing where a cable stands beside."""
+        for i, part in enumerate(parts):
+            if "repeat" in part:
+                part["repeat"]["count"] = 1 + part["repeat"]["count"] % 4
+                beside = parts[max(i - 1, 0):i] + parts[i + 1:i + 2]
+                if all(one["type"] != "cable" for one in beside):
+                    part["repeat"].pop("spacing_m", None)
+            self.repeats(part.get("components", ()))
 
     def part(self, part):
         if "joints" in part and part["joints"]:
@@ -308,8 +329,9 @@ class Ease:
             return
         if path in ("/v1/catenary/frequencies", "/v1/forced/tension"):
             self.suspended(path, request)
-        if "band_rad_per_s" in request:
-            self.band(request)
+        for name in BANDS:
+            if len(request.get(name, ())) == 2:
+                self.band(request, name)
         if path == "/v1/taut/modes" and any(self.damps(part) for part in request.get("components", ())):
             self.damped_chain(request)
         if path == "/v1/validation":  # all cases take seconds
@@ -336,7 +358,7 @@ class Ease:
             if abs(request.get(name, 0)) > bound:
                 request[name] = bound * self.rng.random()
         chord = math.hypot(request.get("span_m", 1), request.get("rise_m", 0))
-        for name in ("length_m", "unstretched_length_m"):
+        for name in ("length_m", "unstretched_length_m", "stretched_length_m"):
             if request.get(name, 0) > 1.6 * chord:
                 request[name] = min(1e7, chord * (1 + 10 ** self.rng.uniform(-8, -.3)))
         for part in request.get("harmonics", ()):
@@ -345,6 +367,7 @@ class Ease:
         for name in ("frequency_ratios", "profiles_at"):
             if name in request:
                 request[name] = [value if value < top else self.rng.random() * top for value in request[name]]
+        self.real(request, top)
         if request.get("frequency_ratio_max", 0) > top:
             request["frequency_ratio_max"] = top
             request["frequency_ratio_min"] = min(request.get("frequency_ratio_min", 0), top / 2)
@@ -353,19 +376,41 @@ class Ease:
             if "frequency_ratios" in request:
                 request.pop("points", None)
 
-    def band(self, request):
+    def real(self, request, top):
+        """Frequencies in Hz, rad/s or s, by sqrt(g/a) of a cable that hangs about half its span deep."""
+        top *= math.sqrt(request.get("gravity_m_per_s2", 9.80665) / request.get("span_m", 1))
+        for name, factor in FREQUENCIES.items():
+            if name in request:
+                most = top / factor if factor > 0 else -factor / top
+                request[name] = [v if (v < most) == (factor > 0) else most * self.rng.random() ** (1 if factor > 0 else -1)
+                                 for v in request[name]][:5]
+        for (low, high), factor in zip(RANGES, (2 * math.pi, 1, 0)):
+            if request.get(high, 0) > top / (factor or 1) and factor:
+                request[high] = top / factor
+                request[low] = min(request.get(low, 0), top / factor / 2)
+            elif not factor and 0 < request.get(low, 1e9) < 2 * math.pi / top:
+                request[low] = 2 * math.pi / top
+                request[high] = max(request.get(high, 0), 2 * request[low])
+
+    def band(self, request, name):
         """By how many modes lie below its top: the phase along the cables over pi."""
         phase = sum(part["length_m"] * math.sqrt(part["mass_kg_per_m"] / (part.get("tension_N") or request["tension_N"]))
                     for part in request["components"]
-                    if all(isinstance(part.get(name, 1), (int, float)) for name in ("length_m", "mass_kg_per_m", "tension_N"))
+                    if all(isinstance(part.get(field, 1), (int, float)) for field in ("length_m", "mass_kg_per_m", "tension_N"))
                     and "length_m" in part and "mass_kg_per_m" in part and isinstance(request["tension_N"], (int, float)))
         top = max(1e-6, min(1e6, 100 / phase if phase > 0 else 1))
-        if request["band_rad_per_s"][1] > top:
-            request["band_rad_per_s"] = sorted([top * self.rng.uniform(.9, 1), top])
+        if name == "band_s":
+            if request[name][0] < 2 * math.pi / top:
+                request[name] = [2 * math.pi / top, 2 * math.pi / top * self.rng.uniform(1.01, 1.1)]
+            return
+        top /= 2 * math.pi if name == "band_Hz" else 1
+        if request[name][1] > top:
+            request[name] = sorted([top * self.rng.uniform(.9, 1), top])
 
     @staticmethod
     def damps(part):
-        return part.get("drag_N_s_per_m2") or part.get("damping_N_s_per_m") or "joints" in part
+        return any(one.get("drag_N_s_per_m2") or one.get("damping_N_s_per_m") or "joints" in one
+                   for one in (part, *part.get("components", ())))
 
     def damped_chain(self, request):
         light = [part for part in request["components"] if not self.damps(part)]
@@ -375,8 +420,8 @@ class Ease:
         else:
             keep = heavy[:1] + light[:2]
             request["components"] = [part for part in request["components"] if any(part is one for one in keep)]
-        request.pop("band_rad_per_s", None)
-        request.pop("max_decay_per_s", None)
+        for name in (*BANDS, "max_decay_per_s"):
+            request.pop(name, None)
         if "mode_numbers" not in request:
             request["modes"] = self.rng.choice([1, 2, 3])
         request.pop("first_mode", None)

@@ -3,7 +3,7 @@
 
 A law draws a request, may make a second one from the first answer, and judges: UnitsChange (units of mass, length and time may be
 chosen freely: every number scales as its x-unit says), Reversed (a chain seen from the other side has the same
-frequencies), Cut (so has a cable given in two pieces), Mirrored (and a suspended cable seen from behind), Asides (what is asked
+frequencies), WrittenOut (so has one whose repeats are written out), Cut (so has a cable given in two pieces), Mirrored (and a suspended cable seen from behind), Asides (what is asked
 beside changes nothing), Chain (frequencies of cables and masses against transfer matrices of 40 digits) and OutOfPlane (the catenary's
 out-of-plane frequencies against collocation).
 """
@@ -224,7 +224,7 @@ class SameRates(Law):
 class Reversed(SameRates):
     def second(self, answer):
         turned = copy.deepcopy(answer["request"])
-        turned["components"] = [self.mirror(part) for part in turned["components"][::-1]]
+        turned["components"] = [self.mirror(part) for part in written_out(turned["components"])[::-1]]
         turned["left_end"], turned["right_end"] = turned["right_end"], turned["left_end"]
         return turned
 
@@ -243,12 +243,36 @@ class Reversed(SameRates):
         return part
 
 
+def written_out(parts):
+    """A chain without groups and repeats."""
+    chain = []
+    for i, part in enumerate(parts):
+        one = {name: value for name, value in part.items() if name != "repeat"}
+        repeat = part.get("repeat", {"count": 1})
+        beside = [p for p in parts[max(i - 1, 0):i] + parts[i + 1:i + 2] if p["type"] == "cable"]
+        for k in range(repeat["count"]):
+            if k and "spacing_m" in repeat:
+                chain.append({**beside[0], "length_m": repeat["spacing_m"]})
+                chain[-1].pop("repeat", None)
+            chain += written_out(one["components"]) if one["type"] == "group" else [one]
+    return chain
+
+
+class WrittenOut(SameRates):
+    """What is repeated, one by one."""
+    relative = 0
+
+    def second(self, answer):
+        return dict(answer["request"], components=written_out(answer["request"]["components"]))
+
+
 class Cut(SameRates):
     def second(self, answer):
-        cables = [i for i, part in enumerate(answer["request"]["components"]) if part["type"] == "cable"]
+        said = copy.deepcopy(answer["request"])
+        said["components"] = written_out(said["components"])
+        cables = [i for i, part in enumerate(said["components"]) if part["type"] == "cable"]
         if not cables:
             return None
-        said = copy.deepcopy(answer["request"])
         at, share = self.rng.choice(cables), self.rng.choice([.5, .25, .125])
         part = said["components"][at]
         said["components"][at:at + 1] = [{**part, "length_m": part["length_m"] * share}, {**part, "length_m": part["length_m"] * (1 - share)}]
@@ -392,7 +416,7 @@ class OutOfPlane(Law):
         return f"{bad[0]}" if bad else ""
 
 
-LAWS = {UnitsChange: 6, Reversed: 3, Cut: 3, Mirrored: 2, Asides: 4, Chain: 3, OutOfPlane: 1}
+LAWS = {UnitsChange: 6, Reversed: 3, WrittenOut: 2, Cut: 3, Mirrored: 2, Asides: 4, Chain: 3, OutOfPlane: 1}
 
 
 def law(run, seed, number):

@@ -164,7 +164,7 @@ static strum_status write_closed_forms(json_writer *json, absorber_solving *s,
     json_key(json, "closed_forms");
     json_open_array(json);
     strum_status status = STRUM_OK;
-    if (r->in.components.count == 3 && chain_look(&r->in, &x, 0, &left) &&
+    if (r->in.part_count == 3 && chain_look(&r->in, &x, 0, &left) &&
         chain_look(&r->in, &x, 1, &part) && chain_look(&r->in, &x, 2, &right) &&
         left.length > 0 && right.length > 0 && left.tension == right.tension &&
         left.mass_per_length == right.mass_per_length) {
@@ -317,6 +317,6 @@ bool absorber_write(absorber_solving *s, const strum_absorber_optimum *best,
     write_search(json, s->r, best);
     json_close_object(json);
     if (status != STRUM_OK)
-        chain_refuse(&(strum_error){0}, status, s->a->problem);
+        chain_refuse(&s->r->in, &(strum_error){0}, status, s->a->problem);
     return status == STRUM_OK;
 }

@@ -175,15 +175,15 @@ bool absorber_assess(absorber_solving *s)
     strum_taut_roots_free(roots);
     strum_taut_free(chain);
     if (status != STRUM_OK)
-        chain_refuse(&error, status, s->a->problem);
+        chain_refuse(&r->in, &error, status, s->a->problem);
     return status == STRUM_OK;
 }
 
 static const char *asking_field(const absorber_request *r)
 {
-    return r->modes.count > 0            ? "/modes"
-           : r->band_rad_per_s.count > 0 ? "/band_rad_per_s"
-                                         : "/current_m_per_s";
+    return r->modes.count > 0           ? "/modes"
+           : band_given(&r->asked_band) ? band_pointer(&r->asked_band)
+                                        : "/current_m_per_s";
 }
 
 void absorber_explain(absorber_solving *s)

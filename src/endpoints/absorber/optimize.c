@@ -73,7 +73,7 @@ static bool respond(const void *data, answer *a)
     const strum_status status = solve(&s, &best, &roots, &late, &error);
     if (status != STRUM_OK) {
         strum_taut_roots_free(roots);
-        chain_refuse(&error, status, a->problem);
+        chain_refuse(&r->in, &error, status, a->problem);
         if (status == STRUM_ERR_IMPOSSIBLE && !answer_cancelled(a))
             absorber_explain(&s);
         return false;

@@ -58,9 +58,8 @@ static const field fields[] = {
      .min_items = 1, .max_items = STRUM_ABSORBER_MODES_MAX,
      .flags = FIELD_WHOLE | FIELD_ASCENDING,
      .help = "branches, numbered at zero damping and followed in damping"},
-    {FIELD_AT(FIELD_NUMBERS, absorber_request, band_rad_per_s), .unit = "rad/s", .min = 0,
-     .max = 1e9, .min_items = 2, .max_items = 2, .flags = FIELD_OPEN_MIN | FIELD_ASCENDING,
-     .help = "all modes in this band, however many, found anew at every trial"},
+    BAND_FIELDS(absorber_request, asked_band, 0, FIELD_OPEN_MIN,
+                "all modes in this band, however many, found anew at every trial"),
     {FIELD_AT(FIELD_NUMBERS, absorber_request, current_m_per_s), .unit = "m/s", .min = 0,
      .max = 1e3, .min_items = 2, .max_items = 2, .flags = FIELD_OPEN_MIN | FIELD_ASCENDING,
      .help = "currents whose vortices excite: the band 2 pi St U/D, with required.diameter_m"},
@@ -77,8 +76,8 @@ static const field fields[] = {
      .help = "the best so far is answered then, with a warning; a sweep has as long again"},
     {.kind = FIELD_END}};
 
-static const char *const excited[] = {"modes", "band_rad_per_s", "current_m_per_s +required",
-                                      NULL};
+static const char *const excited[] = {
+    "modes", "band_rad_per_s", "band_Hz", "band_s", "current_m_per_s +required", NULL};
 static const char *const asked[] = {"variables [assess]", "assess", NULL};
 static const field_groups groups[] = {
     {"excited modes", false, excited}, {"task", false, asked}, {0}};
@@ -158,7 +157,7 @@ int absorber_variable_index(const absorber_request *r, const char *name)
 void absorber_prepare(void *data, schema_arena *arena, problem *p)
 {
     absorber_request *r = data;
-    chain_prepare(&r->in, p);
+    chain_prepare(&r->in, arena, p);
     check_variables(r, p);
     const absorber_variable *all = r->variables.items;
     r->mode_numbers = schema_alloc(arena, STRUM_ABSORBER_MODES_MAX * sizeof *r->mode_numbers);
@@ -173,8 +172,7 @@ void absorber_prepare(void *data, schema_arena *arena, problem *p)
         r->low[i] = all[i].min;
         r->high[i] = all[i].max;
     }
-    if (r->band_rad_per_s.count == 2)
-        memcpy(r->band, r->band_rad_per_s.items, sizeof r->band);
+    band_read(&r->asked_band, r->band);
     for (int i = 0; i < 2 && r->current_m_per_s.count == 2; i++)
         r->band[i] = 2 * M_PI * r->required.strouhal * r->current_m_per_s.items[i] /
                      r->required.diameter_m;
@@ -184,7 +182,7 @@ void absorber_prepare(void *data, schema_arena *arena, problem *p)
 double absorber_solve_bytes(const void *data)
 {
     const absorber_request *r = data;
-    return 2e6 + 8192 * (double)r->in.components.count + 4096 * (double)r->sweep.points;
+    return 2e6 + 8192 * (double)r->in.part_count + 4096 * (double)r->sweep.points;
 }
 
 double absorber_cost_us(const void *data)

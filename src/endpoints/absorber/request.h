@@ -6,6 +6,7 @@
 #include <strum/absorber.h>
 
 #include "endpoints/common/chain.h"
+#include "endpoints/common/frequency.h"
 
 typedef struct absorber_variable {
     field_set given;
@@ -27,7 +28,8 @@ typedef struct absorber_sweep {
 typedef struct absorber_request {
     chain_input in;
     objects_value variables; /* of absorber_variable */
-    numbers_value modes, band_rad_per_s, current_m_per_s;
+    numbers_value modes, current_m_per_s;
+    band_input asked_band;
     bool assess;
     int objective;
     absorber_required required;

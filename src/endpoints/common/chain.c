@@ -7,27 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct chain_link {
-    field_set given;
-    variable_value left_m, right_m, mass_kg, inertia_kg_m2;
-} chain_link;
-
-typedef struct chain_joint {
-    field_set given;
-    variable_value spring_arm_m, damper_arm_m, stiffness_N_per_m, damping_N_s_per_m, force_N;
-} chain_joint;
-
-/* Any component: its variant's table says which members mean something. */
-typedef struct chain_part {
-    field_set given;
-    variable_value tension_N, tension_left_N, tension_right_N;
-    variable_value length_m, diameter_m, height_m, base_radius_m, centre_m, pivot_m;
-    variable_value mass_kg_per_m, drag_N_s_per_m2, mass_kg, radius_of_gyration_m, inertia_kg_m2;
-    variable_value stiffness_N_per_m, damping_N_s_per_m, inertance_kg;
-    int solution, apex;
-    objects_value links, joints;
-} chain_part;
-
 /* ---- tables ---- */
 
 #define NUMBER(type, member, unit_, max_, flags_, help_)                                       \
@@ -62,6 +41,12 @@ typedef struct chain_part {
     {                                                                                          \
         .kind = FIELD_END                                                                      \
     }
+#define REPEAT                                                                                 \
+    {                                                                                          \
+        FIELD_AT(FIELD_OBJECT, chain_part, repeat), .schema = &chain_repeat_schema,            \
+                                                    .help = "this many of it in a row"         \
+    }
+#define PART_END REPEAT, END
 
 static const char *const solutions[] = {"exact", "wkb", NULL};
 static const char *const apexes[] = {"left", "right", NULL};
@@ -74,25 +59,26 @@ static const field_groups tension_groups[] = {{"tension", true, tension_words}, 
 static const field cable_fields[] = {
     LENGTH, MASS_PER_LENGTH,
     NUMBER(chain_part, drag_N_s_per_m2, "N s/m^2", 1e12, ZERO, "viscous drag per length"),
-    TENSION, END};
+    TENSION, PART_END};
 static const field varying_fields[] = {
     LENGTH,
     MASS_PER_LENGTH,
     TENSION_ENDS(FIELD_REQUIRED),
     {FIELD_AT(FIELD_CHOICE, chain_part, solution), .choices = solutions, .flags = FIELD_DEFAULT,
      .help = "exact: Bessel functions; wkb: the approximation of Li's library"},
-    END};
-static const field point_fields[] = {MASS(GIVEN), END};
+    PART_END};
+static const field point_fields[] = {MASS(GIVEN), PART_END};
 static const field lump_fields[] = {
     NUMBER(chain_part, length_m, "m", 1e7, GIVEN, "length between the cables' ends"),
     MASS(GIVEN),
     NUMBER(chain_part, centre_m, "m", 1e7, GIVEN, "centre of mass from the left end"),
     NUMBER(chain_part, radius_of_gyration_m, "m", 1e7, GIVEN, "about the centre of mass"),
     TENSIONS,
-    END};
-static const field bar_fields[] = {LENGTH, MASS(GIVEN), TENSIONS, END};
+    PART_END};
+static const field bar_fields[] = {LENGTH, MASS(GIVEN), TENSIONS, PART_END};
 static const field sphere_fields[] = {
-    NUMBER(chain_part, diameter_m, "m", 1e7, POSITIVE, "diameter"), MASS(GIVEN), TENSIONS, END};
+    NUMBER(chain_part, diameter_m, "m", 1e7, POSITIVE, "diameter"), MASS(GIVEN), TENSIONS,
+    PART_END};
 static const field cone_fields[] = {
     NUMBER(chain_part, height_m, "m", 1e7, POSITIVE, "height, along the chain"),
     NUMBER(chain_part, base_radius_m, "m", 1e7, POSITIVE, "radius of the base"),
@@ -100,7 +86,7 @@ static const field cone_fields[] = {
     {FIELD_AT(FIELD_CHOICE, chain_part, apex), .choices = apexes, .flags = FIELD_DEFAULT,
      .help = "the end at which the apex is"},
     TENSIONS,
-    END};
+    PART_END};
 
 static const field link_fields[] = {
     NUMBER(chain_link, left_m, "m", 1e6, GIVEN, "from its left end to its centre of mass"),
@@ -126,22 +112,23 @@ static const field inline_fields[] = {
      .max_items = STRUM_TAUT_LINKS_MAX - 1, .flags = FIELD_REQUIRED,
      .help = "the hinges between them, one fewer"},
     TENSIONS,
-    END};
+    PART_END};
 static const field hanging_fields[] = {
     MASS(GIVEN), STIFFNESS(GIVEN),
     NUMBER(chain_part, damping_N_s_per_m, "N s/m", 1e15, ZERO | FIELD_INFINITE,
            "of the damper beside the spring; infinite: a point mass"),
-    END};
-static const field spring_fields[] = {STIFFNESS(GIVEN), END};
+    PART_END};
+static const field spring_fields[] = {STIFFNESS(GIVEN), PART_END};
 static const field damper_fields[] = {
     NUMBER(chain_part, damping_N_s_per_m, "N s/m", 1e15, GIVEN,
            "of the damper; where it would be infinite the chain ends"),
-    END};
+    PART_END};
 static const field inerter_fields[] = {
-    NUMBER(chain_part, inertance_kg, "kg", 1e12, GIVEN, "force per acceleration"), END};
+    NUMBER(chain_part, inertance_kg, "kg", 1e12, GIVEN, "force per acceleration"), PART_END};
 static const field support_fields[] = {
     LENGTH, NUMBER(chain_part, pivot_m, "m", 1e7, POSITIVE, "pivot from the left end"),
-    NUMBER(chain_part, inertia_kg_m2, "kg m^2", 1e15, GIVEN, "about the pivot"), TENSIONS, END};
+    NUMBER(chain_part, inertia_kg_m2, "kg m^2", 1e15, GIVEN, "about the pivot"), TENSIONS,
+    PART_END};
 
 #define TABLE(name, fields, groups)                                                            \
     static const schema name##_schema = {#name, fields, groups, sizeof(chain_part)}
@@ -159,38 +146,38 @@ TABLE(damper, damper_fields, NULL);
 TABLE(inerter, inerter_fields, NULL);
 TABLE(support, support_fields, tension_groups);
 
-enum {
-    CABLE,
-    VARYING_CABLE,
-    POINT_MASS,
-    LUMP,
-    BAR,
-    SPHERE,
-    CONE,
-    INLINE_ABSORBER,
-    HANGING_ABSORBER,
-    SPRING,
-    DAMPER,
-    INERTER,
-    SUPPORT
-};
+/* All that a group may hold. */
+#define SINGLE_VARIANTS                                                                        \
+    {"cable", "a piece of cable of uniform tension", &cable_schema},                           \
+        {"varying_cable", "a piece of cable whose tension varies linearly",                    \
+         &varying_cable_schema},                                                               \
+        {"point_mass", "a mass without size", &point_mass_schema},                             \
+        {"lump", "a rigid body", &lump_schema},                                                \
+        {"bar", "a uniform rigid bar along the chain", &bar_schema},                           \
+        {"sphere", "a uniform solid sphere", &sphere_schema},                                  \
+        {"cone", "a uniform solid cone", &cone_schema},                                        \
+        {"inline_absorber", "rigid links hinged to each other, with springs and dampers",      \
+         &inline_absorber_schema},                                                             \
+        {"hanging_absorber", "a mass on a spring and a damper, hung to the chain",             \
+         &hanging_absorber_schema},                                                            \
+        {"spring", "a spring to ground", &spring_schema},                                      \
+        {"damper", "a viscous damper to ground", &damper_schema},                              \
+        {"inerter", "an inerter to ground", &inerter_schema},                                  \
+    {                                                                                          \
+        "support", "a rigid lever pinned to ground, through which the chain passes",           \
+            &support_schema                                                                    \
+    }
+
+static const variant single_variants[] = {SINGLE_VARIANTS, {0}};
+static const field group_fields[] = {{FIELD_AT(FIELD_VARIANTS, chain_part, components),
+                                      .variants = single_variants, .min_items = 1,
+                                      .max_items = STRUM_TAUT_COMPONENTS_MAX,
+                                      .flags = FIELD_REQUIRED, .help = "from left to right"},
+                                     PART_END};
+TABLE(group, group_fields, NULL);
 const variant chain_variants[] = {
-    {"cable", "a piece of cable of uniform tension", &cable_schema},
-    {"varying_cable", "a piece of cable whose tension varies linearly", &varying_cable_schema},
-    {"point_mass", "a mass without size", &point_mass_schema},
-    {"lump", "a rigid body", &lump_schema},
-    {"bar", "a uniform rigid bar along the chain", &bar_schema},
-    {"sphere", "a uniform solid sphere", &sphere_schema},
-    {"cone", "a uniform solid cone", &cone_schema},
-    {"inline_absorber", "rigid links hinged to each other, with springs and dampers",
-     &inline_absorber_schema},
-    {"hanging_absorber", "a mass on a spring and a damper, hung to the chain",
-     &hanging_absorber_schema},
-    {"spring", "a spring to ground", &spring_schema},
-    {"damper", "a viscous damper to ground", &damper_schema},
-    {"inerter", "an inerter to ground", &inerter_schema},
-    {"support", "a rigid lever pinned to ground, through which the chain passes",
-     &support_schema},
+    SINGLE_VARIANTS,
+    {"group", "components in a row that are repeated together", &group_schema},
     {0}};
 
 /* ---- checks across fields ---- */
@@ -200,51 +187,59 @@ static bool plain(const variable_value *v)
     return v->name.text[0] == '\0';
 }
 
-static void check_part(const object_item *item, size_t index, problem *p)
+/* `where`: its pointer. */
+static void check_part(const object_item *item, const char *where, problem *p)
 {
     const chain_part *c = item->object;
-    char pointer[64];
+    char pointer[128];
     if (item->variant == SUPPORT && plain(&c->pivot_m) && plain(&c->length_m) &&
         !(c->pivot_m.value < c->length_m.value)) {
-        (void)snprintf(pointer, sizeof pointer, "/components/%zu/pivot_m", index);
+        (void)snprintf(pointer, sizeof pointer, "%s/pivot_m", where);
         problem_add(p, pointer,
                     "the pivot lies inside the support: must be less than length_m");
     }
     if (item->variant == LUMP && plain(&c->centre_m) && plain(&c->length_m) &&
         !(c->centre_m.value <= c->length_m.value)) {
-        (void)snprintf(pointer, sizeof pointer, "/components/%zu/centre_m", index);
+        (void)snprintf(pointer, sizeof pointer, "%s/centre_m", where);
         problem_add(p, pointer, "the centre of mass lies in the lump: at most length_m");
     }
     if (item->variant == INLINE_ABSORBER && c->joints.count + 1 != c->links.count) {
-        (void)snprintf(pointer, sizeof pointer, "/components/%zu/joints", index);
+        (void)snprintf(pointer, sizeof pointer, "%s/joints", where);
         problem_add(p, pointer, "%zu links have %zu joints between them, not %zu",
                     c->links.count, c->links.count - 1, c->joints.count);
     }
 }
 
-void chain_prepare(const chain_input *in, problem *p)
+void chain_prepare(chain_input *in, schema_arena *arena, problem *p)
 {
     const object_item *items = in->components.items;
-    for (size_t i = 0; i < in->components.count; i++)
-        check_part(&items[i], i, p);
+    char pointer[64];
+    for (size_t i = 0; i < in->components.count; i++) {
+        const objects_value *inner = &((const chain_part *)items[i].object)->components;
+        (void)snprintf(pointer, sizeof pointer, "/components/%zu", i);
+        check_part(&items[i], pointer, p);
+        for (size_t j = 0; j < inner->count; j++) {
+            (void)snprintf(pointer, sizeof pointer, "/components/%zu/components/%zu", i, j);
+            check_part((const object_item *)inner->items + j, pointer, p);
+        }
+    }
+    chain_expand(in, arena, p);
 }
 
 /* ---- making the core's chain ---- */
 
 double chain_number(const variable_value *v, const chain_variables *x)
 {
-    if (plain(v))
-        return v->value;
-    for (size_t i = 0; x != NULL && i < x->count; i++)
+    for (size_t i = 0; !plain(v) && x != NULL && i < x->count; i++)
         if (strcmp(x->names[i].text, v->name.text) == 0)
             return v->value + v->scale * x->values[i];
-    return NAN;
+    return plain(v) ? v->value : NAN;
 }
 
-/* Room for the links and joints of all bodies of a chain. */
+/* Room for all bodies' links and joints; the chain's tension. */
 typedef struct workshop {
     const chain_variables *x;
-    double tension; /* of the chain */
+    double tension;
     strum_taut_link *links;
     strum_taut_joint *joints;
 } workshop;
@@ -373,16 +368,16 @@ void chain_parts_free(chain_parts *p)
 
 strum_status chain_parts_make(const chain_input *in, const chain_variables *x, chain_parts *out)
 {
-    const size_t count = in->components.count;
-    const object_item *items = in->components.items;
+    const size_t count = in->part_count;
+    const object_item *items = in->parts;
     size_t links = 0;
     for (size_t i = 0; i < count; i++)
         links += items[i].variant == INLINE_ABSORBER
                      ? ((const chain_part *)items[i].object)->links.count
                      : 1;
-    *out = (chain_parts){malloc(count * sizeof *out->parts), count,
-                         malloc(links * sizeof *out->links),
-                         malloc(links * sizeof *out->joints)};
+    *out =
+        (chain_parts){malloc(count * sizeof *out->parts), count,
+                      malloc(links * sizeof *out->links), malloc(links * sizeof *out->joints)};
     if (out->parts == NULL || out->links == NULL || out->joints == NULL) {
         chain_parts_free(out);
         return STRUM_ERR_MEMORY;
@@ -409,9 +404,9 @@ strum_status chain_make(const chain_input *in, const chain_variables *x, strum_t
 
 size_t chain_varying(const chain_input *in)
 {
-    const object_item *items = in->components.items;
+    const object_item *items = in->parts;
     size_t count = 0;
-    for (size_t i = 0; i < in->components.count; i++)
+    for (size_t i = 0; i < in->part_count; i++)
         count += items[i].variant == VARYING_CABLE &&
                  ((const chain_part *)items[i].object)->solution == 0;
     return count;
@@ -419,9 +414,9 @@ size_t chain_varying(const chain_input *in)
 
 double chain_mean_mass(const chain_input *in, const chain_variables *x)
 {
-    const object_item *items = in->components.items;
+    const object_item *items = in->parts;
     double mass = 0, length = 0;
-    for (size_t i = 0; i < in->components.count; i++) {
+    for (size_t i = 0; i < in->part_count; i++) {
         const chain_part *c = items[i].object;
         if (items[i].variant != CABLE && items[i].variant != VARYING_CABLE)
             continue;
@@ -440,7 +435,7 @@ static const char *name_of(const variable_value *v)
 bool chain_look(const chain_input *in, const chain_variables *x, size_t index,
                 chain_glance *glance)
 {
-    const object_item *item = (const object_item *)in->components.items + index;
+    const object_item *item = &in->parts[index];
     const chain_part *c = item->object;
     *glance = (chain_glance){.absorber = item->variant == HANGING_ABSORBER,
                              .damper = item->variant == DAMPER};
@@ -484,7 +479,8 @@ void chain_write_root(json_writer *json, const strum_taut_root *root)
     }
 }
 
-void chain_refuse(const strum_error *fault, strum_status status, problem *p)
+void chain_refuse(const chain_input *in, const strum_error *fault, strum_status status,
+                  problem *p)
 {
     const char *reason = fault->reason[0] != '\0' ? fault->reason : strum_status_text(status);
     const bool later =
@@ -492,9 +488,13 @@ void chain_refuse(const strum_error *fault, strum_status status, problem *p)
     const int http = later ? 503 : status == STRUM_ERR_INTERNAL ? 500 : 422;
     problem_set(p, http, "%s", reason);
     if (http == 422 && fault->argument == STRUM_TAUT_ARG_COMPONENTS &&
-        fault->index != STRUM_NO_INDEX) {
+        fault->index < in->part_count) {
+        const chain_place *at = &in->places[fault->index];
         char pointer[64];
-        (void)snprintf(pointer, sizeof pointer, "/components/%zu", fault->index);
+        const int used = snprintf(pointer, sizeof pointer, "/components/%zu", at->entry);
+        if (at->grouped)
+            (void)snprintf(pointer + used, sizeof pointer - (size_t)used, "/components/%zu",
+                           at->inner);
         problem_add(p, pointer, "%s", reason);
     }
 }

@@ -5,17 +5,8 @@
 #ifndef ENDPOINTS_COMMON_CHAIN_H
 #define ENDPOINTS_COMMON_CHAIN_H
 
-#include <strum/taut.h>
-
+#include "endpoints/common/chain_part.h"
 #include "endpoints/endpoint.h"
-
-/* First member of a request struct, so that the offsets of CHAIN_FIELDS hold there too. */
-typedef struct chain_input {
-    field_set given;
-    variable_value tension_N;
-    objects_value components; /* of object_item */
-    int left_end, right_end;
-} chain_input;
 
 extern const variant chain_variants[];
 extern const char *const chain_ends[];
@@ -53,8 +44,9 @@ typedef struct chain_variables {
 /* `v` with its variable, if it names one, taken from `x` (may be NULL where none is named). */
 double chain_number(const variable_value *v, const chain_variables *x);
 
-/* Checks across the fields of each component; faults go into `p`. */
-void chain_prepare(const chain_input *in, problem *p);
+/* Checks across the fields of each component, and writes out what is repeated; faults go into
+ * `p`. */
+void chain_prepare(chain_input *in, schema_arena *arena, problem *p);
 /* The chain; the caller ends it by strum_taut_free. */
 strum_status chain_make(const chain_input *in, const chain_variables *x, strum_taut **chain,
                         strum_error *fault);
@@ -65,7 +57,8 @@ typedef struct chain_parts {
     strum_taut_link *links;
     strum_taut_joint *joints;
 } chain_parts;
-strum_status chain_parts_make(const chain_input *in, const chain_variables *x, chain_parts *out);
+strum_status chain_parts_make(const chain_input *in, const chain_variables *x,
+                              chain_parts *out);
 void chain_parts_free(chain_parts *p);
 /* How many cables of varying tension are solved exactly. */
 size_t chain_varying(const chain_input *in);
@@ -91,7 +84,8 @@ bool chain_look(const chain_input *in, const chain_variables *x, size_t index,
 /* Members of an open object: mode, angular_frequency_rad_per_s and its companions, decay and
  * dampings. */
 void chain_write_root(json_writer *json, const strum_taut_root *root);
-/* Turns a fault of the core into a problem, laid at the component that it names. */
-void chain_refuse(const strum_error *fault, strum_status status, problem *p);
+/* Turns a fault of the core into a problem, laid at the entry that made the component it names. */
+void chain_refuse(const chain_input *in, const strum_error *fault, strum_status status,
+                  problem *p);
 
 #endif

@@ -8,11 +8,11 @@ const char *const cable_geometry_groups[] = {
     "xi_1 xi_2",
     "chi_1 chi_2",
     "span_m [rise_m] length_m",
-    "span_m [rise_m] unstretched_length_m +axial_stiffness_N +mass_kg_per_m",
-    "span_m [rise_m] horizontal_tension_N +mass_kg_per_m",
-    "span_m [rise_m] tension_end_1_N [branch] +mass_kg_per_m",
-    "span_m [rise_m] tension_end_2_N [branch] +mass_kg_per_m",
-    "span_m [rise_m] tension_parallel_to_chord_N +mass_kg_per_m",
+    "span_m [rise_m] unstretched_length_m +axial_stiffness_N",
+    "span_m [rise_m] horizontal_tension_N",
+    "span_m [rise_m] tension_end_1_N [branch]",
+    "span_m [rise_m] tension_end_2_N [branch]",
+    "span_m [rise_m] tension_parallel_to_chord_N",
     "span_m [rise_m] catenary_parameter_m",
     "span_m [rise_m] sag_mid_m",
     "span_m [rise_m] sag_max_m",
@@ -73,9 +73,27 @@ static const char *field_at_fault(const schema *s, const cable_input *in, int ar
     }
 }
 
+/* A tension tells how a cable hangs by its weight. */
+static bool needs_mass(const schema *s, const cable_input *in)
+{
+    return FIELD_GIVEN(s, in, horizontal_tension_N) || FIELD_GIVEN(s, in, tension_end_1_N) ||
+           FIELD_GIVEN(s, in, tension_end_2_N) ||
+           FIELD_GIVEN(s, in, tension_parallel_to_chord_N);
+}
+
 /* Weight follows from mass unless given; what hangs on a mass needs one. */
 static void complete_masses(const schema *s, cable_input *in, problem *p)
 {
+    const round_masses masses = {in->gravity_m_per_s2,
+                                 &in->mass_kg_per_m,
+                                 &in->weight_N_per_m,
+                                 &in->added_mass_kg_per_m,
+                                 FIELD_GIVEN(s, in, mass_kg_per_m),
+                                 FIELD_GIVEN(s, in, weight_N_per_m)};
+    if (round_complete(&in->round, &masses, p) && p->status == 0) {
+        FIELD_GIVE(s, in, mass_kg_per_m);
+        FIELD_GIVE(s, in, weight_N_per_m);
+    }
     const bool mass = FIELD_GIVEN(s, in, mass_kg_per_m);
     if (!mass && FIELD_GIVEN(s, in, weight_N_per_m))
         problem_add(p, "/mass_kg_per_m", "is needed with weight_N_per_m");
@@ -91,6 +109,10 @@ static void complete_masses(const schema *s, cable_input *in, problem *p)
                     "needs a geometry in metres; give flexibility with a dimensionless one");
     else if (FIELD_GIVEN(s, in, axial_stiffness_N) && !mass)
         problem_add(p, "/mass_kg_per_m", "is needed with axial_stiffness_N");
+    else if (needs_mass(s, in) && !mass)
+        problem_add(
+            p, "/mass_kg_per_m",
+            "missing: a tension needs it, or diameter_m with material_density_kg_per_m3");
 }
 
 void cable_prepare(const schema *s, cable_input *in, problem *p)

@@ -7,6 +7,7 @@
 #include <strum/catenary.h>
 
 #include "endpoints/common/members.h"
+#include "endpoints/common/round.h"
 #include "endpoints/endpoint.h"
 
 /* First member of a request struct, so that CABLE_FIELDS' offsets hold there too. */
@@ -20,6 +21,7 @@ typedef struct cable_input {
     double catenary_parameter_m, sag_mid_m, sag_max_m, depth_below_end_1_m;
     double angle_end_1_deg, angle_end_2_deg;
     int branch;
+    round_input round;
 
     /* from here on: computed by cable_prepare */
     strum_catenary catenary;
@@ -97,6 +99,7 @@ extern const char *const cable_branches[];
                      "weight per length; default mass times gravity, less in water"),          \
         CABLE_NUMBER(added_mass_kg_per_m, "kg/m", 0, 1e6, FIELD_DEFAULT, 0,                    \
                      "mass of fluid that moves with the cable, normal to it"),                 \
+        ROUND_FIELDS(cable_input, round),                                                      \
         CABLE_NUMBER(                                                                          \
             flexibility, "1", 0, 1e4, FIELD_DEFAULT, 0,                                        \
             "kappa = S0/k: horizontal tension over axial stiffness; 0: inextensible"),         \

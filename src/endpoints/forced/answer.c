@@ -228,10 +228,10 @@ static strum_status write_profiles(json_writer *json, solving *s, const answer *
     strum_status status = STRUM_OK;
     json_key(json, "profiles");
     json_open_array(json);
-    for (size_t i = 0; i < r->profiles_at.count && status == STRUM_OK; i++) {
+    for (size_t i = 0; i < r->profiles.count && status == STRUM_OK; i++) {
         json_open_object(json);
-        write_frequency(json, r, r->profiles_at.items[i]);
-        status = solve_at(s, r->profiles_at.items[i]);
+        write_frequency(json, r, r->profiles.items[i]);
+        status = solve_at(s, r->profiles.items[i]);
         if (status == STRUM_ERR_METHOD) {
             write_unbounded(json, s);
             status = STRUM_OK;
@@ -465,9 +465,9 @@ static strum_status write_verification(json_writer *json, solving *s,
     for (int i = 0; i < forced_frequency_count(r) && status == STRUM_OK; i += step)
         status =
             compare_at(s, forced_frequency_at(r, i), &options, &tension, &displacement, fault);
-    for (size_t i = 0; i < r->profiles_at.count && status == STRUM_OK; i++)
+    for (size_t i = 0; i < r->profiles.count && status == STRUM_OK; i++)
         status =
-            compare_at(s, r->profiles_at.items[i], &options, &tension, &displacement, fault);
+            compare_at(s, r->profiles.items[i], &options, &tension, &displacement, fault);
     int expected;
     if (status == STRUM_OK)
         status = count_modes(r, list, count, &options, &expected, fault);
@@ -517,7 +517,7 @@ static strum_status write_answer(json_writer *json, solving *s, answer *a, strum
     find_neighbours(s);
     if (status == STRUM_OK)
         status = write_resonances(json, s, list, count, a);
-    if (status == STRUM_OK && r->profiles_at.count > 0)
+    if (status == STRUM_OK && r->profiles.count > 0)
         status = write_profiles(json, s, a);
     if (status == STRUM_OK && r->verify)
         status = write_verification(json, s, list, count, a, fault);

@@ -35,7 +35,14 @@ static const schema harmonic_schema = {
         FIELD_AT(FIELD_NUMBER, forced_request, member), .unit = (unit_), .min = -1e6,          \
                                                         .max = 1e6, .help = (help_)            \
     }
-#define RATIO_MAX 1e5
+#define RATIO_MAX    1e5
+#define PROFILES_MAX 100
+#define PROFILES_ROW(name_, unit_member, unit_, most, flags_, help_)                           \
+    {                                                                                          \
+        FREQUENCY_ROW(FIELD_NUMBERS, forced_request, name_, asked_profiles.unit_member, unit_, \
+                      0, most, flags_, help_),                                                 \
+            .min_items = 1, .max_items = PROFILES_MAX                                          \
+    }
 
 static const field fields[] = {
     CABLE_FIELDS,
@@ -57,12 +64,19 @@ static const field fields[] = {
      .max = RATIO_MAX, .help = "first forcing frequency of the curve, in sqrt(g/a)"},
     {FIELD_AT(FIELD_NUMBER, forced_request, frequency_ratio_max), .unit = "1", .min = 0,
      .max = RATIO_MAX, .flags = FIELD_OPEN_MIN, .help = "last forcing frequency of the curve"},
+    FREQUENCIES_FIELDS(forced_request, frequencies, FREQUENCIES_MAX),
+    FREQUENCY_RANGE_FIELDS(forced_request, range),
     {FIELD_AT(FIELD_INTEGER, forced_request, points), .min = 2, .max = FREQUENCIES_MAX,
      .flags = FIELD_DEFAULT, .fallback = 201,
      .help = "equally spaced frequencies of the curve, ends included"},
     {FIELD_AT(FIELD_NUMBERS, forced_request, profiles_at), .unit = "1", .min = 0,
-     .max = RATIO_MAX, .max_items = 100,
+     .max = RATIO_MAX, .max_items = PROFILES_MAX,
      .help = "forcing frequencies whose motion and tension along the cable are wanted"},
+    PROFILES_ROW("profiles_at_Hz", hertz, "Hz", FREQUENCY_MOST / 10, 0, "profiles_at, in Hz"),
+    PROFILES_ROW("profiles_at_rad_per_s", rad_per_s, "rad/s", FREQUENCY_MOST, 0,
+                 "profiles_at, in rad/s"),
+    PROFILES_ROW("profiles_at_s", seconds, "s", PERIOD_MOST, FIELD_OPEN_MIN,
+                 "profiles_at, by periods"),
     {FIELD_AT(FIELD_INTEGER, forced_request, profile_points), .min = 2, .max = 2000,
      .flags = FIELD_DEFAULT, .fallback = 33,
      .help = "points of each profile, equally spaced in chi, ends included"},
@@ -78,12 +92,17 @@ static const char *const motion_groups[] = {
     "[tangential_displacement_m] [normal_displacement_m] [out_of_plane_displacement_m] +span_m",
     "harmonics", NULL};
 static const char *const frequency_groups[] = {
-    "frequency_ratios", "frequency_ratio_min frequency_ratio_max [points]", NULL};
+    "frequency_ratios", "frequency_ratio_min frequency_ratio_max [points]",
+    FREQUENCIES_GROUPS(" +span_m"), FREQUENCY_RANGE_GROUPS("[points] +span_m"), NULL};
+static const char *const profiles_groups[] = {"profiles_at", "profiles_at_Hz +span_m",
+                                              "profiles_at_rad_per_s +span_m",
+                                              "profiles_at_s +span_m", NULL};
 static const char *const profile_groups[] = {"[profile_points]", "profile_chi", NULL};
 static const field_groups groups[] = {{CABLE_GEOMETRY_GROUPS},
                                       {CABLE_ELASTICITY_GROUPS},
                                       {"motion", true, motion_groups},
                                       {"forcing frequency", false, frequency_groups},
+                                      {"profile frequencies", true, profiles_groups},
                                       {"profile places", true, profile_groups},
                                       {0}};
 
@@ -131,35 +150,106 @@ static void complete_motion(forced_request *r)
 
 double forced_frequency_at(const forced_request *r, int i)
 {
-    if (r->frequency_ratios.count > 0)
-        return r->frequency_ratios.items[i];
+    if (r->listed.count > 0)
+        return r->listed.items[i];
     const double share = (double)i / (double)(r->points - 1);
-    return r->frequency_ratio_min * (1 - share) + r->frequency_ratio_max * share;
+    return r->curve_ends[0] * (1 - share) + r->curve_ends[1] * share;
 }
 
 int forced_frequency_count(const forced_request *r)
 {
-    return (int)(r->frequency_ratios.count > 0 ? (int64_t)r->frequency_ratios.count
-                                               : r->points);
+    return (int)(r->listed.count > 0 ? (int64_t)r->listed.count : r->points);
+}
+
+static const char *profiles_field(const forced_request *r)
+{
+    return r->asked_profiles.hertz.count > 0       ? "/profiles_at_Hz"
+           : r->asked_profiles.rad_per_s.count > 0 ? "/profiles_at_rad_per_s"
+           : r->asked_profiles.seconds.count > 0   ? "/profiles_at_s"
+                                                   : "/profiles_at";
+}
+
+static const char *curve_field(const forced_request *r)
+{
+    const char *list = frequencies_pointer(&r->frequencies),
+               *range = frequency_range_pointer(&r->range);
+    return list != NULL                    ? list
+           : range != NULL                 ? range
+           : r->frequency_ratios.count > 0 ? "/frequency_ratios"
+                                           : "/frequency_ratio_max";
 }
 
 const char *forced_highest_field(const forced_request *r)
 {
     double profiles = 0;
-    for (size_t i = 0; i < r->profiles_at.count; i++)
-        profiles = fmax(profiles, r->profiles_at.items[i]);
-    return profiles > r->curve_max         ? "/profiles_at"
-           : r->frequency_ratios.count > 0 ? "/frequency_ratios"
-                                           : "/frequency_ratio_max";
+    for (size_t i = 0; i < r->profiles.count; i++)
+        profiles = fmax(profiles, r->profiles.items[i]);
+    return profiles > r->curve_max ? profiles_field(r) : curve_field(r);
+}
+
+/* A list in rad/s as ratios to the cable's unit, within their range. */
+static void scale_list(const forced_request *r, numbers_value *list, const char *pointer,
+                       problem *p)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        list->items[i] /= r->in.rad_per_s;
+        if (list->items[i] <= RATIO_MAX)
+            continue;
+        problem_add(p, pointer,
+                    "%.4g times sqrt(g/a), which is %.4g rad/s here: at most %g times it",
+                    list->items[i], r->in.rad_per_s, RATIO_MAX);
+        return;
+    }
+}
+
+/* Frequency ratios of curve and profiles, from whichever unit; the cable is known. */
+static void find_frequencies(forced_request *r, schema_arena *arena, problem *p)
+{
+    r->listed = r->frequency_ratios;
+    r->profiles = r->profiles_at;
+    r->curve_ends[0] = r->frequency_ratio_min;
+    r->curve_ends[1] = r->frequency_ratio_max;
+    const bool profiles = frequencies_pointer(&r->asked_profiles) != NULL;
+    if (profiles && !frequencies_read(&r->asked_profiles, arena, &r->profiles))
+        problem_out_of_memory(p);
+    else if (profiles)
+        scale_list(r, &r->profiles, profiles_field(r), p);
+    if (frequencies_pointer(&r->frequencies) != NULL) {
+        if (!frequencies_read(&r->frequencies, arena, &r->listed))
+            problem_out_of_memory(p);
+        else
+            scale_list(r, &r->listed, curve_field(r), p);
+    } else if (frequency_range_pointer(&r->range) != NULL) {
+        frequency_range_read(&r->range, r->curve_ends);
+        numbers_value ends = {r->curve_ends, 2};
+        scale_list(r, &ends, curve_field(r), p);
+    }
+}
+
+/* Ends in their order, whatever their unit. */
+static void check_range(const forced_request *r, problem *p)
+{
+    double ends[2] = {r->frequency_ratio_min, r->frequency_ratio_max};
+    const char *range = frequency_range_pointer(&r->range);
+    if (r->frequency_ratios.count > 0 || frequencies_pointer(&r->frequencies) != NULL)
+        return;
+    if (range != NULL)
+        frequency_range_read(&r->range, ends);
+    if (!(ends[0] < ends[1]))
+        problem_add(p, curve_field(r), "must be greater than %s",
+                    range == NULL              ? "frequency_ratio_min"
+                    : r->range.hertz_max > 0   ? "frequency_min_Hz"
+                    : r->range.seconds_max > 0 ? "period_min_s"
+                                               : "angular_frequency_min_rad_per_s");
 }
 
 void forced_prepare(void *data, schema_arena *arena, problem *p)
 {
-    (void)arena;
     forced_request *r = data;
     cable_prepare(&forced_request_schema, &r->in, p);
-    if (r->frequency_ratios.count == 0 && !(r->frequency_ratio_min < r->frequency_ratio_max))
-        problem_add(p, "/frequency_ratio_max", "must be greater than frequency_ratio_min");
+    check_range(r, p);
+    if (p->status == 0)
+        find_frequencies(r, arena, p);
     for (size_t i = 0; p->status == 0 && i < r->profile_chi.count; i++)
         if (fabs(r->profile_chi.items[i] - r->in.catenary.chi_m) >
             r->in.catenary.mu * (1 + 1e-12)) {
@@ -185,8 +275,8 @@ void forced_prepare(void *data, schema_arena *arena, problem *p)
         r->curve_max = fmax(r->curve_max, forced_frequency_at(r, i));
     }
     r->highest = r->curve_max;
-    for (size_t i = 0; i < r->profiles_at.count; i++)
-        r->highest = fmax(r->highest, r->profiles_at.items[i]);
+    for (size_t i = 0; i < r->profiles.count; i++)
+        r->highest = fmax(r->highest, r->profiles.items[i]);
     r->highest *= multiple;
 }
 
@@ -205,13 +295,13 @@ double forced_answer_bytes(const void *data, const char **pointer)
     const double points =
         r->profile_chi.count > 0 ? (double)r->profile_chi.count : (double)r->profile_points;
     /* as if no natural frequency were among them, where a profile has no points */
-    const double profiles = (double)r->profiles_at.count * points *
+    const double profiles = (double)r->profiles.count * points *
                             ((double)point_keys + numbers * ANSWER_NUMBER_BYTES);
     const double curve =
         forced_frequency_count(r) * ((double)curve_keys + 2 * ANSWER_NUMBER_BYTES);
-    *pointer = profiles > curve                ? "/profiles_at"
-               : r->frequency_ratios.count > 0 ? "/frequency_ratios"
-                                               : "/points";
+    *pointer = profiles > curve      ? profiles_field(r)
+               : r->listed.count > 0 ? curve_field(r)
+                                     : "/points";
     return profiles + curve;
 }
 
@@ -256,9 +346,9 @@ double forced_solve_bytes(const void *data)
 double forced_cost_us(const void *data)
 {
     const forced_request *r = data;
-    const double frequencies = forced_frequency_count(r) + (double)r->profiles_at.count;
+    const double frequencies = forced_frequency_count(r) + (double)r->profiles.count;
     const double responses = frequencies * r->motion_count;
-    const double points = (double)r->profiles_at.count * r->motion_count *
+    const double points = (double)r->profiles.count * r->motion_count *
                           (double)(r->profile_points + (int64_t)r->profile_chi.count);
     const bool direct = cable_damped(&r->in) && r->in.eta_tangential != r->in.eta_normal;
     const double modes = modes_to_solve(r);

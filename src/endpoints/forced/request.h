@@ -5,6 +5,7 @@
 
 #include <strum/forced.h>
 
+#include "endpoints/common/frequency.h"
 #include "endpoints/common/suspended_cable.h"
 
 #define FORCED_HARMONICS_MAX 16
@@ -16,10 +17,15 @@ typedef struct forced_request {
     objects_value harmonics;
     numbers_value frequency_ratios, profiles_at, profile_chi;
     double frequency_ratio_min, frequency_ratio_max;
+    frequencies_input frequencies, asked_profiles; /* other than by ratios */
+    frequency_range_input range;
     int64_t points, profile_points;
     bool verify;
 
     /* computed by prepare */
+    numbers_value listed;   /* frequency ratios, however they were given; else `curve_ends` */
+    numbers_value profiles; /* frequency ratios */
+    double curve_ends[2];
     strum_end_motion motions[FORCED_HARMONICS_MAX];
     int multiples[FORCED_HARMONICS_MAX], motion_count;
     double curve_min, curve_max; /* frequency ratios of the curve */

@@ -202,7 +202,7 @@ static bool write_verification(const identify_request *r, const strum_identify *
     else if (status == STRUM_ERR_METHOD || status == STRUM_ERR_ACCURACY)
         answer_warn(a, "not verified: %s", fault.reason);
     else
-        chain_refuse(&fault, status, a->problem);
+        chain_refuse(&r->in, &fault, status, a->problem);
     return a->problem->status == 0;
 }
 
@@ -239,7 +239,7 @@ static void refuse(const identify_request *r, const strum_error *fault, strum_st
             problem_add(p, pointer, "%s", fault->reason);
         return;
     }
-    chain_refuse(fault, status, p);
+    chain_refuse(&r->in, fault, status, p);
 }
 
 static const char *theory(const identify_request *r)

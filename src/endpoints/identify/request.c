@@ -400,7 +400,7 @@ static void set_chain(identify_request *r, schema_arena *arena, problem *p)
     const bool own = !GIVEN(r, in.tension_N);
     if (own)
         r->in.tension_N = (variable_value){.value = 1000, .scale = 1};
-    chain_prepare(&r->in, p);
+    chain_prepare(&r->in, arena, p);
     if (p->status != 0)
         return;
     if (chain_parts_make(&r->in, NULL, &r->parts) != STRUM_OK ||

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 
 #include "endpoints/common/plausibility.h"
-#include "endpoints/inclined/request.h"
+#include "endpoints/common/suspended_cable.h"
+#include "endpoints/inclined/answer.h"
 
 /* Beyond it an expansion in epsilon errs by more than about a hundredth: 0.15 epsilon^2. */
 #define EPSILON_REACH 0.3
@@ -50,6 +51,12 @@ static void write_statics(json_writer *json, const inclined_request *r)
         if (isfinite(s->stiffness))
             json_put_number(json, "axial_stiffness_N", s->stiffness * tension);
     }
+    if (r->span_m > 0)
+        json_put_number(json, "unstretched_length_m", length);
+    if (r->solutions > 0)
+        json_put_integer(json, "solutions", r->solutions);
+    if (r->solutions > 1)
+        json_put_number(json, "other_unstretched_length_m", r->other_length_m);
     json_close_object(json);
 }
 
@@ -72,19 +79,12 @@ static void write_crossover(json_writer *json, const inclined_request *r)
     json_close_object(json);
 }
 
-static void write_frequency(json_writer *json, const inclined_request *r, double kl)
-{
-    json_put_number(json, "kl_over_pi", kl / M_PI);
-    if (r->rad_per_s > 0)
-        put_frequency(json, kl * r->rad_per_s);
-}
-
 static void write_mode(json_writer *json, const inclined_request *r,
                        const strum_inclined_mode *mode)
 {
     static const char *const families[] = {"transverse", "longitudinal", "hybrid"};
     const double slope = r->cable.epsilon * cos(r->cable.inclination);
-    write_frequency(json, r, mode->kl);
+    inclined_write_frequency(json, r, mode->kl);
     json_put_string(json, "family", families[mode->family]);
     json_put_number(json, "longitudinal_energy", mode->longitudinal_energy);
     json_put_string(json, "symmetry", symmetry_names[mode->symmetry]);
@@ -160,7 +160,7 @@ static void write_beside(json_writer *json, const inclined_request *r, int model
 {
     json_key(json, inclined_models[model]);
     json_open_object(json);
-    write_frequency(json, r, mode->kl);
+    inclined_write_frequency(json, r, mode->kl);
     if (model != FULL)
         json_put_number(json, "difference", mode->kl / full->kl - 1);
     json_put_number(json, "tension_amplification", mode->tension_amplification);
@@ -264,7 +264,7 @@ static void warn_of_model(const inclined_request *r, double last, answer *a)
 static strum_status solve(const inclined_request *r, strum_inclined **solved,
                           const strum_options *options, strum_error *error, answer *a)
 {
-    for (int model = 0; model < MODELS; model++) {
+    for (int model = 0; model < MODELS && r->plane != INCLINED_OUT_OF_PLANE; model++) {
         if (!r->compare && model != r->model)
             continue;
         const strum_inclined_params params = inclined_params(r, model);
@@ -309,6 +309,11 @@ static strum_status write_result(const inclined_request *r, strum_inclined *cons
     json_writer *json = a->result;
     const strum_inclined *modes = solved[r->model];
     strum_inclined_mode last;
+    if (r->plane == INCLINED_OUT_OF_PLANE) {
+        warn_of_input(r, a);
+        write_statics(json, r);
+        return inclined_write_out_of_plane(json, r, options, error);
+    }
     strum_status status = strum_inclined_get(modes, strum_inclined_count(modes) - 1, &last);
     if (status != STRUM_OK)
         return status;
@@ -323,6 +328,8 @@ static strum_status write_result(const inclined_request *r, strum_inclined *cons
         status = write_comparison(json, r, solved);
     if (status == STRUM_OK && r->verify)
         status = write_verification(json, modes, options, error);
+    if (status == STRUM_OK && r->plane == INCLINED_BOTH)
+        status = inclined_write_out_of_plane(json, r, options, error);
     return status;
 }
 
@@ -332,7 +339,10 @@ static bool answer_modes(const void *data, answer *a)
     const strum_options options = answer_options(a);
     strum_inclined *solved[MODELS] = {NULL};
     strum_error error = {0};
-    a->theory = theory_of(r);
+    a->theory =
+        r->plane == INCLINED_OUT_OF_PLANE
+            ? "linear dynamics out of the plane about the static catenary, Galerkin's method"
+            : theory_of(r);
     strum_status status = solve(r, solved, &options, &error, a);
     json_open_object(a->result);
     if (status == STRUM_OK)
@@ -347,7 +357,7 @@ static bool answer_modes(const void *data, answer *a)
 
 const endpoint inclined_modes = {
     .path = "/v1/inclined/modes",
-    .title = "In-plane modes and dynamic tension of a taut elastic inclined cable",
+    .title = "Modes and dynamic tension of a taut elastic inclined cable",
     .request = &inclined_schema,
     .query = true,
     .prepare = inclined_prepare,

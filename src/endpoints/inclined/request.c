@@ -7,6 +7,7 @@
 
 #include "endpoints/common/suspended_cable.h"
 
+static const char *const planes[] = {"in_plane", "out_of_plane", "both", NULL};
 static const char *const statics_choices[] = {"inextensible", "elastic", NULL};
 const char *const inclined_models[] = {"full", "airy", "asymptotic", "irvine", NULL};
 static const char *const expansions[] = {"midspan", "tangent", NULL};
@@ -36,7 +37,7 @@ static const field fields[] = {
      .max = 1e6, .flags = FIELD_DEFAULT,
      .help = "mass of fluid that moves with the cable, normal to it"},
     {FIELD_AT(FIELD_NUMBER, inclined_request, inclination_deg), .unit = "deg", .min = 0,
-     .max = STRUM_INCLINATION_MAX_DEG, .flags = FIELD_REQUIRED,
+     .max = STRUM_INCLINATION_MAX_DEG,
      .help = "phi_a: angle of the chord to the horizontal; 0 is a level cable"},
     {FIELD_AT(FIELD_NUMBER, inclined_request, lambda_squared), .unit = "1",
      .min = STRUM_LAMBDA_SQUARED_MIN, .max = STRUM_LAMBDA_SQUARED_MAX,
@@ -66,12 +67,59 @@ static const field fields[] = {
      .help = "put all four models side by side, with differences from full"},
     {FIELD_AT(FIELD_FLAG, inclined_request, verify), .flags = FIELD_DEFAULT,
      .help = "check the answer by a second, independent method"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, span_m), .unit = "m", .min = 0, .max = 1e6,
+     .flags = FIELD_OPEN_MIN,
+     .help = "horizontal distance of the supports, in place of inclination_deg"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, rise_m), .unit = "m", .min = 0, .max = 1e6,
+     .flags = FIELD_DEFAULT, .help = "height of end 2, the upper one, above end 1"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, stretched_length_m), .unit = "m", .min = 0,
+     .max = 1e7, .flags = FIELD_OPEN_MIN,
+     .help = "length of the hanging cable, longer than the chord; length_m is without load"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, tension_end_1_N), .unit = "N", .min = 0,
+     .max = 1e12, .flags = FIELD_OPEN_MIN,
+     .help = "tension at the lower end; two shapes have it, see branch"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, tension_end_2_N), .unit = "N", .min = 0,
+     .max = 1e12, .flags = FIELD_OPEN_MIN,
+     .help = "tension at the upper end; two shapes have it, see branch"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, tension_parallel_to_chord_N), .unit = "N",
+     .min = 0, .max = 1e12, .flags = FIELD_OPEN_MIN,
+     .help = "tension_N of a cable that is given by span and rise"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, catenary_parameter_m), .unit = "m", .min = 0,
+     .max = 1e9, .flags = FIELD_OPEN_MIN, .help = "horizontal tension over weight per length"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, sag_mid_m), .unit = "m", .min = 0, .max = 1e6,
+     .flags = FIELD_OPEN_MIN, .help = "vertical distance of chord and cable at half the span"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, sag_max_m), .unit = "m", .min = 0, .max = 1e6,
+     .flags = FIELD_OPEN_MIN, .help = "largest vertical distance of chord and cable"},
+    {FIELD_AT(FIELD_NUMBER, inclined_request, depth_below_end_1_m), .unit = "m", .min = 0,
+     .max = 1e6, .flags = FIELD_OPEN_MIN,
+     .help = "of the lowest point, where it lies between the ends"},
+    ROUND_FIELDS(inclined_request, round),
+    {FIELD_AT(FIELD_CHOICE, inclined_request, branch), .choices = cable_branches,
+     .help =
+         "of the two shapes with one tension at an end: taut, the shorter (default), or slack"},
+    {FIELD_AT(FIELD_CHOICE, inclined_request, plane), .choices = planes,
+     .help = "which motion to solve; in_plane where it is left out"},
     {.kind = FIELD_END}};
 
+/* clang-format off */
+#define MASSES "[weight_N_per_m] [added_mass_kg_per_m] [diameter_m] [material_density_kg_per_m3] " \
+    "[fluid_density_kg_per_m3] [added_mass_coefficient]"
 static const char *const cable_groups[] = {
-    "epsilon [mass_ratio]",
-    "length_m mass_kg_per_m tension_N [weight_N_per_m] [added_mass_kg_per_m]",
-    "length_m mass_kg_per_m horizontal_tension_N [weight_N_per_m] [added_mass_kg_per_m]", NULL};
+    "epsilon inclination_deg [mass_ratio]",
+    "length_m [mass_kg_per_m] tension_N inclination_deg " MASSES,
+    "length_m [mass_kg_per_m] horizontal_tension_N inclination_deg " MASSES,
+    "span_m [rise_m] length_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] stretched_length_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] horizontal_tension_N [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] tension_end_1_N [branch] [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] tension_end_2_N [branch] [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] tension_parallel_to_chord_N [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] catenary_parameter_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] sag_mid_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] sag_max_m [mass_kg_per_m] " MASSES,
+    "span_m [rise_m] depth_below_end_1_m [mass_kg_per_m] " MASSES,
+    NULL};
+/* clang-format on */
 static const char *const stiffness_groups[] = {
     "lambda_squared [inextensible]", "axial_stiffness_N [inextensible]", "inextensible", NULL};
 static const field_groups groups[] = {
@@ -84,15 +132,37 @@ const schema inclined_schema = {.name = "inclined_modes_request",
 
 /* ---- the cable ---- */
 
-static void complete_metres(inclined_request *r)
+static void complete_metres(inclined_request *r, problem *p)
 {
+    const schema *s = &inclined_schema;
+    const round_masses masses = {INCLINED_GRAVITY,
+                                 &r->mass_kg_per_m,
+                                 &r->weight_N_per_m,
+                                 &r->added_mass_kg_per_m,
+                                 FIELD_GIVEN(s, r, mass_kg_per_m),
+                                 FIELD_GIVEN(s, r, weight_N_per_m)};
+    if (round_complete(&r->round, &masses, p) && p->status == 0) {
+        FIELD_GIVE(s, r, mass_kg_per_m);
+        FIELD_GIVE(s, r, weight_N_per_m);
+    }
+    if (p->status == 0 && !FIELD_GIVEN(s, r, mass_kg_per_m))
+        problem_add(p, "/mass_kg_per_m",
+                    "missing: the cable by length_m needs it, or diameter_m with "
+                    "material_density_kg_per_m3");
+    if (p->status != 0)
+        return;
     if (!FIELD_GIVEN(&inclined_schema, r, weight_N_per_m)) {
         r->weight_N_per_m = r->mass_kg_per_m * INCLINED_GRAVITY;
         FIELD_GIVE(&inclined_schema, r, weight_N_per_m);
     }
-    r->tension = FIELD_GIVEN(&inclined_schema, r, tension_N)
-                     ? r->tension_N
-                     : r->horizontal_tension_N / cos(r->cable.inclination);
+    if (FIELD_GIVEN(&inclined_schema, r, span_m))
+        inclined_span(r, p);
+    else
+        r->tension = FIELD_GIVEN(&inclined_schema, r, tension_N)
+                         ? r->tension_N
+                         : r->horizontal_tension_N / cos(r->cable.inclination);
+    if (!(r->tension > 0)) /* refused */
+        return;
     const double mass = r->mass_kg_per_m + r->added_mass_kg_per_m;
     r->cable.epsilon = r->weight_N_per_m * r->length_m / r->tension;
     r->cable.mass_ratio = r->mass_kg_per_m / mass;
@@ -148,6 +218,8 @@ static const char *field_at_fault(const inclined_request *r, int argument)
         return "/axial_stiffness_N";
     if (argument == STRUM_INCLINED_ARG_MASS_RATIO)
         return "/added_mass_kg_per_m";
+    if (FIELD_GIVEN(&inclined_schema, r, span_m))
+        return inclined_figure_pointer(r);
     return FIELD_GIVEN(&inclined_schema, r, tension_N) ? "/tension_N" : "/horizontal_tension_N";
 }
 
@@ -158,13 +230,16 @@ void inclined_prepare(void *data, schema_arena *arena, problem *p)
     if (r->shape_points == 1)
         problem_add(p, "/shape_points",
                     "must be 0 or at least 2, so that both ends are among them");
-    const bool metres = FIELD_GIVEN(&inclined_schema, r, length_m);
+    const bool metres =
+        FIELD_GIVEN(&inclined_schema, r, length_m) || FIELD_GIVEN(&inclined_schema, r, span_m);
     r->cable = (strum_inclined_cable){.epsilon = r->epsilon,
                                       .inclination = r->inclination_deg * M_PI / 180,
                                       .mass_ratio = r->mass_ratio,
                                       .elastic_statics = r->statics == 1};
     if (metres)
-        complete_metres(r);
+        complete_metres(r, p);
+    if (r->compare && r->plane == INCLINED_OUT_OF_PLANE)
+        problem_add(p, "/compare", "the models differ in the plane only");
     find_stiffness(r, metres, p);
     if (p->status == 0 && metres)
         check_unit_of_frequency(r, p);
@@ -215,7 +290,8 @@ double inclined_answer_bytes(const void *data, const char **pointer)
         4 + (r->tension > 0 ? 3 : 0); /* s_m, tension_N_per_m with their keys */
     *pointer = "/shape_points";
     return (double)r->modes * (double)r->shape_points *
-           ((double)keys + numbers * ANSWER_NUMBER_BYTES);
+           ((double)keys + numbers * ANSWER_NUMBER_BYTES) *
+           (r->plane == INCLINED_OUT_OF_PLANE ? 0.4 : 1);
 }
 
 double inclined_cost_us(const void *data)
@@ -227,7 +303,9 @@ double inclined_cost_us(const void *data)
     const double level = r->cable.inclination == 0 ? 0.5 : 0;
     double work =
         20 + (r->compare ? 180 : 0) + (double)r->modes * (30 + 2.6 * (double)r->shape_points);
-    for (int model = 0; model < MODELS; model++)
+    if (r->plane != INCLINED_IN_PLANE)
+        work += inclined_out_of_plane_us(r);
+    for (int model = 0; model < MODELS && r->plane != INCLINED_OUT_OF_PLANE; model++)
         if (r->compare || model == r->model) {
             const strum_inclined_params params = inclined_params(r, model);
             const double second = r->verify && model == r->model ? 3 : 0;

@@ -2,6 +2,7 @@
 /* /v1/taut/matrix: transfer matrices of a chain and of its components (Li's library, in
  * Levesque 1997). */
 #include "endpoints/common/chain.h"
+#include "endpoints/common/frequency.h"
 
 #define FREQUENCIES_MAX 10000
 /* Matrices of one answer, those of components included. */
@@ -10,40 +11,65 @@
 typedef struct request {
     chain_input in;
     complexes_value angular_frequencies;
+    frequencies_input real;
+
+    complexes_value asked; /* computed by prepare, owned by the arena: whichever is given */
 } request;
 
 static const field fields[] = {
     CHAIN_FIELDS,
     {FIELD_AT(FIELD_COMPLEXES, request, angular_frequencies), .unit = "rad/s", .max = 1e9,
-     .min_items = 1, .max_items = FREQUENCIES_MAX, .flags = FIELD_REQUIRED,
+     .min_items = 1, .max_items = FREQUENCIES_MAX,
      .help = "frequencies w of e^{i w t}: numbers, or {re, im}; im > 0 decays"},
+    FREQUENCIES_FIELDS(request, real, FREQUENCIES_MAX),
     {.kind = FIELD_END}};
 
+static const char *const which[] = {"angular_frequencies", FREQUENCIES_GROUPS(""), NULL};
+static const field_groups groups[] = {{"frequencies", false, which}, {0}};
+
 static const schema request_schema = {
-    .name = "taut_matrix_request", .fields = fields, .size = sizeof(request)};
+    .name = "taut_matrix_request", .fields = fields, .groups = groups, .size = sizeof(request)};
+
+/* Whichever list is given. */
+static void find_frequencies(request *r, schema_arena *arena, problem *p)
+{
+    numbers_value real;
+    bool good = frequencies_read(&r->real, arena, &real);
+    r->asked = r->angular_frequencies;
+    if (good && real.count > 0) {
+        r->asked.count = real.count;
+        r->asked.items = schema_alloc(arena, real.count * sizeof *r->asked.items);
+        good = r->asked.items != NULL;
+        for (size_t i = 0; good && i < real.count; i++)
+            r->asked.items[i] = real.items[i];
+    }
+    if (!good)
+        problem_out_of_memory(p);
+}
 
 static void prepare(void *data, schema_arena *arena, problem *p)
 {
-    (void)arena;
-    const request *r = data;
-    chain_prepare(&r->in, p);
-    if ((r->in.components.count + 1) * r->angular_frequencies.count > MATRICES_MAX)
-        problem_add(p, "/angular_frequencies",
+    request *r = data;
+    const char *pointer = frequencies_pointer(&r->real);
+    chain_prepare(&r->in, arena, p);
+    find_frequencies(r, arena, p);
+    if ((r->in.part_count + 1) * r->asked.count > MATRICES_MAX)
+        problem_add(p, pointer != NULL ? pointer : "/angular_frequencies",
                     "%zu frequencies of %zu components are more than %d matrices",
-                    r->angular_frequencies.count, r->in.components.count, MATRICES_MAX);
+                    r->asked.count, r->in.part_count, MATRICES_MAX);
 }
 
 static double cost_us(const void *data)
 {
     const request *r = data;
-    return 10 + 2.0 * (double)(r->in.components.count * r->angular_frequencies.count);
+    return 10 + 2.0 * (double)(r->in.part_count * r->asked.count);
 }
 
 /* The chain alone; matrices are written as they are made. */
 static double solve_bytes(const void *data)
 {
     const request *r = data;
-    return 4096.0 * (double)r->in.components.count;
+    return 4096.0 * (double)r->in.part_count;
 }
 
 static void write_matrix(json_writer *json, const double _Complex matrix[4])
@@ -92,9 +118,8 @@ static bool respond(const void *data, answer *a)
     json_open_object(json);
     json_key(json, "matrices");
     json_open_array(json);
-    for (size_t i = 0; i < r->angular_frequencies.count && status == STRUM_OK; i++) {
-        status = write_at(json, chain, r->in.components.count, r->angular_frequencies.items[i],
-                          &fault);
+    for (size_t i = 0; i < r->asked.count && status == STRUM_OK; i++) {
+        status = write_at(json, chain, r->in.part_count, r->asked.items[i], &fault);
         if (answer_cancelled(a))
             status = STRUM_ERR_CANCELLED;
     }
@@ -102,7 +127,7 @@ static bool respond(const void *data, answer *a)
     json_close_object(json);
     strum_taut_free(chain);
     if (status != STRUM_OK)
-        chain_refuse(&fault, status, a->problem);
+        chain_refuse(&r->in, &fault, status, a->problem);
     return status == STRUM_OK;
 }
 

@@ -5,6 +5,7 @@
 
 #include "endpoints/common/plausibility.h"
 #include "endpoints/common/chain.h"
+#include "endpoints/common/frequency.h"
 #include "endpoints/common/members.h"
 
 #define MODES_MAX        1000
@@ -21,13 +22,15 @@ static const char *const methods[] = {"certified", "muller", NULL};
 typedef struct request {
     chain_input in;
     int64_t modes, first_mode, shape_points;
-    numbers_value mode_numbers, band_rad_per_s;
+    numbers_value mode_numbers;
+    band_input asked_band;
     double max_decay_per_s;
     int method;
     bool nodes, verify;
 
     long *numbers; /* asked by number: computed by prepare, owned by the arena */
     size_t number_count;
+    double band[2];               /* rad/s; 0 where none is asked */
     double band_below, band_last; /* modes below its two ends, without damping */
     strum_taut *chain; /* made by prepare, owned by the arena; NULL where it cannot be made */
 } request;
@@ -44,9 +47,7 @@ static const field fields[] = {
     {FIELD_AT(FIELD_NUMBERS, request, mode_numbers), .min = 1, .max = STRUM_TAUT_MODE_MAX,
      .flags = FIELD_ASCENDING | FIELD_WHOLE, .min_items = 1, .max_items = MODES_MAX,
      .help = "these modes"},
-    {FIELD_AT(FIELD_NUMBERS, request, band_rad_per_s), .unit = "rad/s", .min = 1e-9, .max = 1e9,
-     .flags = FIELD_ASCENDING, .min_items = 2, .max_items = 2,
-     .help = "all modes between these two frequencies"},
+    BAND_FIELDS(request, asked_band, 1e-9, 0, "all modes between these two frequencies"),
     {FIELD_AT(FIELD_NUMBER, request, max_decay_per_s), .unit = "1/s", .min = 0, .max = 1e9,
      .flags = FIELD_OPEN_MIN,
      .help = "with a band: up to this decay; default the upper end of the band"},
@@ -63,8 +64,12 @@ static const field fields[] = {
      .help = "check the answer by a second, independent method"},
     {.kind = FIELD_END}};
 
-static const char *const which[] = {"[modes] [first_mode]", "mode_numbers",
-                                    "band_rad_per_s [max_decay_per_s]", NULL};
+static const char *const which[] = {"[modes] [first_mode]",
+                                    "mode_numbers",
+                                    "band_rad_per_s [max_decay_per_s]",
+                                    "band_Hz [max_decay_per_s]",
+                                    "band_s [max_decay_per_s]",
+                                    NULL};
 static const field_groups groups[] = {{"which modes", true, which}, {0}};
 
 static const schema request_schema = {
@@ -72,7 +77,7 @@ static const schema request_schema = {
 
 static bool by_band(const request *r)
 {
-    return r->band_rad_per_s.count > 0;
+    return band_given(&r->asked_band);
 }
 
 static void check_nodes(const request *r, const char *pointer, double nodes, problem *p)
@@ -116,10 +121,10 @@ static void count_band(request *r, problem *p)
     r->band_last = STRUM_TAUT_ROOTS_MAX;
     if (chain_varying(&r->in) > VARYING_COUNTED_MAX)
         return;
-    r->band_below = (double)strum_taut_count(r->chain, r->band_rad_per_s.items[0]);
-    r->band_last = (double)strum_taut_count(r->chain, r->band_rad_per_s.items[1]);
+    r->band_below = (double)strum_taut_count(r->chain, r->band[0]);
+    r->band_last = (double)strum_taut_count(r->chain, r->band[1]);
     if (!strum_taut_is_damped(r->chain))
-        check_nodes(r, "/band_rad_per_s",
+        check_nodes(r, band_pointer(&r->asked_band),
                     0.5 * (r->band_last - r->band_below) * (r->band_last + r->band_below - 1.0),
                     p);
 }
@@ -140,14 +145,15 @@ static void keep_chain(request *r, schema_arena *arena, problem *p)
 static void prepare(void *data, schema_arena *arena, problem *p)
 {
     request *r = data;
-    chain_prepare(&r->in, p);
+    chain_prepare(&r->in, arena, p);
+    band_read(&r->asked_band, r->band);
     if (r->shape_points == 1)
         problem_add(p, "/shape_points",
                     "must be 0 or at least 2, so that both ends are among them");
     if (!by_band(r)) {
         fill_numbers(r, arena, p);
     } else if (!FIELD_GIVEN(&request_schema, r, max_decay_per_s)) {
-        r->max_decay_per_s = r->band_rad_per_s.items[1];
+        r->max_decay_per_s = r->band[1];
         FIELD_GIVE(&request_schema, r, max_decay_per_s);
     }
     if (p->status == 0)
@@ -176,7 +182,7 @@ static double node_estimate(const request *r, double modes)
 static double solve_bytes(const void *data)
 {
     const request *r = data;
-    const double parts = (double)r->in.components.count;
+    const double parts = (double)r->in.part_count;
     const double rows = r->verify ? fmin(2 * parts, 800) : 0;
     return 2e6 + 4096 * parts + 48 * rows * rows;
 }
@@ -184,7 +190,7 @@ static double solve_bytes(const void *data)
 static double cost_us(const void *data)
 {
     const request *r = data;
-    const double parts = (double)r->in.components.count;
+    const double parts = (double)r->in.part_count;
     const double varying = (double)chain_varying(&r->in);
     if (r->chain == NULL)
         return 10.0;
@@ -350,7 +356,7 @@ static void warn_sag(const request *r, answer *a)
 {
     double length = 0, mass = 0, tension = 0, at = -1;
     chain_glance part;
-    for (size_t i = 0; i < r->in.components.count; i++) {
+    for (size_t i = 0; i < r->in.part_count; i++) {
         if (!chain_look(&r->in, NULL, i, &part) || part.absorber)
             return;
         if (part.damper)
@@ -511,8 +517,8 @@ static bool respond(const void *data, answer *a)
                                     .count = listed ? r->number_count : 0,
                                     .first = placed ? (long)r->first_mode : 0,
                                     .wanted = placed ? r->number_count : 0,
-                                    .lowest = by_band(r) ? r->band_rad_per_s.items[0] : 0.0,
-                                    .highest = by_band(r) ? r->band_rad_per_s.items[1] : 0.0,
+                                    .lowest = r->band[0],
+                                    .highest = r->band[1],
                                     .max_decay = by_band(r) ? r->max_decay_per_s : 0.0,
                                     .method = r->method == 1 ? STRUM_TAUT_MULLER
                                                              : STRUM_TAUT_CERTIFIED};
@@ -535,7 +541,7 @@ static bool respond(const void *data, answer *a)
     }
     strum_taut_roots_free(roots);
     if (status != STRUM_OK)
-        chain_refuse(&fault, status, a->problem);
+        chain_refuse(&r->in, &fault, status, a->problem);
     return status == STRUM_OK;
 }
 
