@@ -105,7 +105,7 @@ strum_status motion_make(const strum_hanging *cable, const motion_choice *choice
                          motion *m);
 
 /* Degrees are bounded by the mesh. */
-#define POINTS_MAX 256
+#define POINTS_MAX 96
 
 /* Static state at `s` from the start of a piece: N0, Q0, t and dth0/dS. */
 typedef struct motion_state {

@@ -111,7 +111,7 @@ static strum_status converge(krylov *b, int want, int first, arena *memory, redu
     if (tails == NULL)
         return STRUM_ERR_MEMORY;
     int size = first;
-    for (int round = 0; round < ROUNDS; round++, size = b->size + 8 + b->start) {
+    for (int round = 0; round < ROUNDS; round++, size = b->size + 4 + b->start) {
         strum_status status = krylov_extend(b, size, memory->work);
         if (status == STRUM_OK)
             status = reduced_make(b, memory, r);
@@ -163,7 +163,7 @@ static strum_status undamped(int want, arena *memory, spectrum *s)
 {
     krylov basis;
     reduced r = {0};
-    const int links = s->motion.link_count, first = want + 16 + 6 * links;
+    const int links = s->motion.link_count, first = want + 20 + 6 * links;
     strum_status status =
         krylov_begin(&s->motion, &s->stiffness, 2, 3 * want + 60 + 24 * links, memory, &basis);
     if (status == STRUM_OK)

@@ -361,6 +361,110 @@ static void second_method(void **state)
     }
 }
 
+/* ---- the limits that other models of the library solve exactly ---- */
+
+/* Bare and inextensible: Gale's suspended cable. */
+static void as_suspended(double rise, double length, strum_plane plane)
+{
+    const double span = 100, g = 9.80665;
+    const strum_cable_section section = {.length = length,
+                                         .mass = 2,
+                                         .weight = 2 * g,
+                                         .axial_stiffness = HUGE_VAL,
+                                         .bed_friction = NAN};
+    strum_cable_params params = STRUM_CABLE_PARAMS_INIT;
+    strum_modes_params gale = STRUM_MODES_PARAMS_INIT;
+    strum_catenary catenary;
+    strum_hanging *cable;
+    strum_modes *other;
+    params.sections = &section;
+    params.section_count = 1;
+    params.span = span;
+    params.rise = rise;
+    assert_int_equal(strum_cable_hang(&params, NULL, &cable, NULL), STRUM_OK);
+    strum_cable_modes *modes = solved(cable, plane, 6);
+    assert_int_equal(strum_catenary_from_length(span, rise, length, &catenary, NULL), STRUM_OK);
+    gale.cable.chi_m = catenary.chi_m;
+    gale.cable.mu = catenary.mu;
+    gale.plane = plane;
+    assert_int_equal(strum_modes_solve(&gale, NULL, &other, NULL), STRUM_OK);
+    for (size_t i = 0; i < 6; i++) {
+        strum_cable_mode a;
+        strum_mode b;
+        assert_int_equal(strum_cable_modes_get(modes, i, &a), STRUM_OK);
+        assert_int_equal(strum_modes_get(other, i, &b), STRUM_OK);
+        check_relative(a.frequency, b.frequency * sqrt(g * catenary.span / span), 1e-12);
+    }
+    strum_cable_modes_free(modes);
+    strum_modes_free(other);
+    strum_cable_free(cable);
+}
+
+/* Straight, with a mass, a spring and an inerter: the chain of a taut string. */
+static void as_taut(void)
+{
+    enum { PARTS = 5, COUNT = 6 };
+    const double tension = 5000, length[] = {11, 24, 15}, mass = 1.5;
+    const strum_cable_section section = {
+        .length = 50, .mass = mass, .axial_stiffness = HUGE_VAL, .bed_friction = NAN};
+    const strum_cable_attachment attached[] = {
+        {STRUM_CABLE_POINT_MASS, 11, STRUM_CABLE_NORMAL, .mass = 20},
+        {STRUM_CABLE_SPRING, 35, STRUM_CABLE_ACROSS, .stiffness = 700},
+        {STRUM_CABLE_INERTER, 35, STRUM_CABLE_ACROSS, .inertance = 4},
+    };
+    strum_taut_component parts[PARTS] = {{.kind = STRUM_TAUT_CABLE},
+                                         {.kind = STRUM_TAUT_GROUND},
+                                         {.kind = STRUM_TAUT_CABLE},
+                                         {.kind = STRUM_TAUT_GROUND},
+                                         {.kind = STRUM_TAUT_CABLE}};
+    for (int i = 0; i < PARTS; i += 2) {
+        parts[i].tension_left = parts[i].tension_right = tension;
+        parts[i].cable.length = length[i / 2];
+        parts[i].cable.mass_per_length = mass;
+    }
+    parts[1].ground.inertance = 20;
+    parts[3].ground.stiffness = 700;
+    parts[3].ground.inertance = 4;
+    const long numbers[COUNT] = {1, 2, 3, 4, 5, 6};
+    const strum_taut_query query = {.numbers = numbers, .count = COUNT};
+    strum_cable_params params = STRUM_CABLE_PARAMS_INIT;
+    strum_hanging *cable;
+    strum_taut *chain;
+    strum_taut_roots *roots;
+    params.sections = &section;
+    params.section_count = 1;
+    params.attachments = attached;
+    params.attachment_count = sizeof attached / sizeof *attached;
+    params.given = STRUM_CABLE_HORIZONTAL_TENSION;
+    params.value = tension;
+    params.span_unknown = true;
+    assert_int_equal(strum_cable_hang(&params, NULL, &cable, NULL), STRUM_OK);
+    strum_cable_modes *modes = solved(cable, STRUM_OUT_OF_PLANE, COUNT);
+    assert_int_equal(
+        strum_taut_make(parts, PARTS, STRUM_TAUT_FIXED, STRUM_TAUT_FIXED, &chain, NULL),
+        STRUM_OK);
+    assert_int_equal(strum_taut_solve(chain, &query, NULL, &roots, NULL), STRUM_OK);
+    for (size_t i = 0; i < COUNT; i++) {
+        strum_cable_mode mode;
+        assert_int_equal(strum_cable_modes_get(modes, i, &mode), STRUM_OK);
+        check_relative(mode.frequency, roots->roots[i].frequency, 1e-12);
+    }
+    strum_cable_modes_free(modes);
+    strum_cable_free(cable);
+    strum_taut_roots_free(roots);
+    strum_taut_free(chain);
+}
+
+static void limits(void **state)
+{
+    (void)state;
+    as_suspended(0, 100.5, STRUM_IN_PLANE);
+    as_suspended(0, 140, STRUM_IN_PLANE);
+    as_suspended(40, 112, STRUM_IN_PLANE);
+    as_suspended(40, 112, STRUM_OUT_OF_PLANE);
+    as_taut();
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -389,7 +493,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reference),       cmocka_unit_test(many_modes),
         cmocka_unit_test(shapes_and_ends), cmocka_unit_test(on_the_bed),
-        cmocka_unit_test(spans_in_a_row),  cmocka_unit_test(refusals),
+        cmocka_unit_test(spans_in_a_row),  cmocka_unit_test(second_method),
+        cmocka_unit_test(limits),          cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests_name("cable_modes", tests, NULL, NULL);
 }
