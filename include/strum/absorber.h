@@ -48,6 +48,8 @@ STRUM_BEGIN_DECLS
 #define STRUM_ABSORBER_OPTIMA_MAX      16
 #define STRUM_ABSORBER_MODES_MAX       64
 #define STRUM_ABSORBER_EVALUATIONS_MIN 100
+/* In a band, whatever decays faster than this many times the upper end limits nothing. */
+#define STRUM_ABSORBER_DECAY 2
 
 typedef struct strum_absorber_params {
     int variables;               /* 1..STRUM_ABSORBER_VARIABLES_MAX */

@@ -185,6 +185,9 @@ typedef struct strum_taut_root {
      * a complex number, from their distance and speeds); INFINITY when far or unknown. About 0
      * at an exceptional point, where a frequency has only half its digits. */
     double exceptional;
+    /* Estimated relative error of frequency + i decay, from what rounding does to the
+     * characteristic function there and from how the root moves with the damping; 0: unknown. */
+    double error;
 } strum_taut_root;
 
 typedef enum strum_taut_method {

@@ -64,6 +64,16 @@ const presets = {
     ['Sergev and Iwan', { report: 'sergev_iwan', values: true }],
     ['All reports, every case (takes seconds)', {}],
   ],
+  '/v1/identify/tension': [
+    ['A 98 mm stay, ten frequencies: tension and bending stiffness', { frequencies_Hz: [0.43, 0.857, 1.286, 1.71, 2.143, 2.578, 3.012, 3.443, 3.883, 4.322],
+      mode_numbers: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10], frequency_standard_deviation_Hz: 0.002, length_m: 177.168, mass_kg_per_m: 51.6,
+      ends: { rotation: 'clamped' }, unknowns: ['tension', 'bending_stiffness'], compare: true }],
+    ['Five lines of a spectrum: which modes are they?', { frequencies_Hz: [0.855, 1.285, 1.71, 2.58, 3.006], frequency_standard_deviation_Hz: 0.002,
+      length_m: 177.168, mass_kg_per_m: 51.6, bending_stiffness_N_m2: 724426.26, ends: { rotation: 'clamped' } }],
+    ['In plane: one frequency, three tensions', { frequencies_Hz: [0.4758476461416981], mode_numbers: [1], plane: 'in_plane', length_m: 150,
+      mass_kg_per_m: 55, weight_N_per_m: 539.36575, axial_stiffness_N: 334455239.7 }],
+    ['A guy by the time of its pulse', { pulse_time_s: 7.5, pulses: 10, length_m: 30.48, mass_kg_per_m: 0.336920316824147 }],
+  ],
   '/v1/absorber/optimize': [
     ['Hanging absorber at mid-span: the best damping for a band', { tension_N: 5000, components: [segment(25), hanging(68.45, { variable: 'R' }), segment(25)],
       variables: [{ name: 'R', min: 0.1, max: 200 }], band_rad_per_s: [0.5, 7], required: { diameter_m: 0.03 }, sweep: { variable: 'R', points: 80 } }],

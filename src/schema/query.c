@@ -98,8 +98,11 @@ static cJSON *field_value(const field *f, const char *value)
     case FIELD_CHOICES:
         return list_value(value, f->kind != FIELD_CHOICES);
     case FIELD_FLAG:
-        if (strcmp(value, "true") == 0 || strcmp(value, "false") == 0)
-            return cJSON_CreateBool(value[0] == 't');
+        /* True and False: Python's clients write flags so. */
+        if (strcmp(value, "true") == 0 || strcmp(value, "True") == 0)
+            return cJSON_CreateTrue();
+        if (strcmp(value, "false") == 0 || strcmp(value, "False") == 0)
+            return cJSON_CreateFalse();
         break;
     default:
         break;

@@ -60,8 +60,7 @@ static strum_status roots_of(const strum_absorber_params *p, const strum_options
                               .lowest = p->lowest,
                               .highest = p->highest};
     if (p->modes == NULL) {
-        /* whatever decays faster than twice its own frequency limits nothing */
-        query.max_decay = 2 * p->highest;
+        query.max_decay = STRUM_ABSORBER_DECAY * p->highest;
         if (guesses != NULL) {
             query.guesses = guesses->roots;
             query.guess_count = guesses->count;

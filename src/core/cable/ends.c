@@ -165,6 +165,15 @@ static int add_least(cable_settler *s, trial *tried, int count, trial *least)
     return count + 1;
 }
 
+/* Of cable that lies slack more changes nothing. */
+static bool lies_slack(const cable_settler *s, const trial *tried, int count)
+{
+    return !s->cable->params.span_unknown && s->form.slack && s->form.contact_count > 0 &&
+           count > 1 &&
+           fabs(tried[count - 1].figure - tried[count - 2].figure) <=
+               1e-12 * fabs(tried[count - 1].figure);
+}
+
 static int look_through(cable_settler *s, trial *tried, strum_error *error)
 {
     double place[PLACES_MAX];
@@ -176,6 +185,8 @@ static int look_through(cable_settler *s, trial *tried, strum_error *error)
             return 0;
         if (isfinite(figure))
             tried[count++] = (trial){place[i], figure};
+        if (lies_slack(s, tried, count))
+            break;
     }
     return count;
 }

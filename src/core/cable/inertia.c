@@ -29,10 +29,10 @@ typedef struct {
 /* The local functions in the order in which they go: what belongs to this element alone, then the
  * displacements of its first node, the rotations that it shares. Forces come last. */
 typedef struct {
-    int functions[2 * 256]; /* rotation k: k; strain k: -1 - k */
-    int inner, count;       /* own; with shared rotations */
-    bool left, right;       /* whether those rotations are shared */
-    int displaced;          /* components of its first node: 0 at end 1 */
+    int functions[2 * POINTS_MAX]; /* rotation k: k; strain k: -1 - k */
+    int inner, count;              /* own; with shared rotations */
+    bool left, right;              /* whether those rotations are shared */
+    int displaced;                 /* components of its first node: 0 at end 1 */
 } layout;
 
 static void lay_out(const motion *m, int index, layout *l)

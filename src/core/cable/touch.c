@@ -170,19 +170,55 @@ static bool next_phase(phase *p)
     return p->kind == RELEASE || weight_across(f, at.piece) >= 0;
 }
 
-/* From a contact on: the first phase at whose end nothing is to spare, and there the place. */
-static bed_state find_lift(phase *p, double *reaction)
+/* Goes on by `steps` phases, or to the last; returns by how many. */
+static size_t go_on(phase *p, size_t steps)
 {
-    for (;;) {
-        if (p->frame->work->status != STRUM_OK || spare_at(1, p) <= 0 ||
-            (p->kind == LIE && p->state.piece + 1 == p->frame->line->count))
-            break;
+    size_t gone = 0;
+    while (gone < steps) {
         const phase kept = *p;
         if (!next_phase(p)) {
             *p = kept;
             break;
         }
+        gone++;
     }
+    return gone;
+}
+
+/* The first phase, from p on, at whose end nothing is to spare, or the last: in strides that
+ * double, then halved, since every look costs a flight over all that lies ahead. */
+static void find_phase(phase *p)
+{
+    size_t stride = 1;
+    while (p->frame->work->status == STRUM_OK && spare_at(1, p) > 0) {
+        phase far = *p;
+        const size_t gone = go_on(&far, stride);
+        if (gone == 0)
+            return;
+        if (spare_at(1, &far) > 0) {
+            *p = far;
+            stride *= 2;
+            continue;
+        }
+        size_t low = 0, high = gone; /* to spare at the end of low, not of high */
+        while (high - low > 1) {
+            const size_t middle = low + (high - low) / 2;
+            phase between = *p;
+            go_on(&between, middle);
+            if (spare_at(1, &between) > 0)
+                low = middle;
+            else
+                high = middle;
+        }
+        go_on(p, high);
+        return;
+    }
+}
+
+/* From a contact on: the first phase at whose end nothing is to spare, and there the place. */
+static bed_state find_lift(phase *p, double *reaction)
+{
+    find_phase(p);
     const double at_start = spare_at(0, p), at_end = spare_at(1, p);
     double parameter = at_end >= 0 ? 1 : 0;
     if (at_start > 0 && at_end < 0)

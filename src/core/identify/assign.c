@@ -23,7 +23,8 @@ typedef struct table {
     bool scales;
     size_t points;
     int modes;
-    double *f; /* of mode n at point i: f[i * modes + n - 1] */
+    double *f;    /* of mode n at point i: f[i * modes + n - 1] */
+    double *bend; /* how far it lies below the straight line to the next point, times 4 */
 } table;
 
 typedef struct ranking {
@@ -99,23 +100,29 @@ static strum_status fill_table(ranking *r)
                 t->f[i * (size_t)t->modes + (size_t)from + k] = out[k].value;
         }
     }
+    for (size_t i = 0; i + 1 < t->points; i++)
+        for (size_t m = i * (size_t)t->modes; m < (i + 1) * (size_t)t->modes; m++) {
+            const double low = t->f[m], high = t->f[m + (size_t)t->modes];
+            t->bend[m] = 4 * (0.5 * (low + high) - sqrt(low * high));
+        }
     return status;
 }
 
 /* ---- one reading ---- */
 
-/* Chi^2 where the path is at i + x, frequencies taken as geometric means between points. */
+/* Chi^2 where the path is at i + x: between two points frequencies follow the parabola through
+ * both and their geometric mean. */
 static double chi2_on(const ranking *r, size_t i, double x)
 {
     const table *t = &r->t;
-    const double *low = t->f + i * (size_t)t->modes;
+    const double *low = t->f + i * (size_t)t->modes, *bend = t->bend + i * (size_t)t->modes;
     const double *high = i + 1 < t->points ? low + t->modes : low;
     const size_t n = r->params->count;
+    const double within = x * (1 - x);
     double fg = 0, gg = 0, ff = 0;
     for (size_t k = 0; k < n; k++) {
         const int m = r->modes[k] - 1;
-        const double g =
-            (x > 0 ? low[m] * exp(x * log(high[m] / low[m])) : low[m]) * r->inverse[k];
+        const double g = (low[m] + x * (high[m] - low[m]) - within * bend[m]) * r->inverse[k];
         const double f = r->params->frequencies[k] * r->inverse[k];
         fg += f * g;
         gg += g * g;
@@ -179,7 +186,7 @@ static strum_status enumerate(ranking *r)
     for (int i = 0; i < n; i++)
         m[i] = i + 1;
     for (;;) {
-        const strum_status status = work_spend(r->f->p.work, 0.02 * n * (double)r->t.points);
+        const strum_status status = work_spend(r->f->p.work, 0.004 * n * (double)r->t.points);
         if (status != STRUM_OK)
             return status;
         if (m[0] <= r->params->first_mode_max)
@@ -272,9 +279,10 @@ strum_status assign_modes(strum_identify *f, const strum_identify_params *params
                           : p->chain != NULL;
         r->t.points = r->t.scales && !p->unknown[BENDING] ? 1 : POINTS;
         r->t.f = calloc(r->t.points * (size_t)r->t.modes, sizeof *r->t.f);
+        r->t.bend = calloc(r->t.points * (size_t)r->t.modes, sizeof *r->t.bend);
         for (size_t i = 0; i < params->count; i++)
             r->inverse[i] = 1 / p->deviation[i];
-        status = r->t.f == NULL ? STRUM_ERR_MEMORY : fill_table(r);
+        status = r->t.f == NULL || r->t.bend == NULL ? STRUM_ERR_MEMORY : fill_table(r);
     }
     if (status == STRUM_OK)
         status = enumerate(r);
@@ -284,8 +292,10 @@ strum_status assign_modes(strum_identify *f, const strum_identify_params *params
         conclude(r);
     for (size_t i = 0; i < p->count && !p->weighted; i++)
         p->deviation[i] = 1;
-    if (r != NULL)
+    if (r != NULL) {
         free(r->t.f);
+        free(r->t.bend);
+    }
     free(r);
     free(room);
     return status;

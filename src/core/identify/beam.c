@@ -9,6 +9,7 @@
 /* Newton's steps below this share of b are followed by one more, and then the root is right to the
  * last bits; smaller shares are drowned by rounding. */
 #define STEP_SMALL 1e-9
+#define STEP_NONE  4e-16
 
 beam_end beam_end_by_fixity(double rho, double u)
 {
@@ -69,54 +70,48 @@ static characteristic evaluate(double b, double xi2, const beam_end ends[2])
 /* The wave number that the end layers' phases give. */
 static double guess(int n, double xi2, const beam_end ends[2])
 {
+    const bool equal = ends[0].a == ends[1].a && ends[0].b == ends[1].b;
     double b = n * M_PI;
     for (int pass = 0; pass < 2; pass++) {
-        const double a = sqrt(b * b + xi2);
-        double phase = 0;
-        for (int i = 0; i < 2; i++)
-            phase += atan2(ends[i].a * b, ends[i].b * (a * a + b * b) + ends[i].a * a);
-        b = n * M_PI + phase;
+        const double a = sqrt(b * b + xi2), q = a * a + b * b;
+        const double one = atan2(ends[0].a * b, ends[0].b * q + ends[0].a * a);
+        const double two = equal ? one : atan2(ends[1].a * b, ends[1].b * q + ends[1].a * a);
+        b = n * M_PI + one + two;
     }
     return b;
 }
 
 /* Exactly one root lies in [n pi, (n + 3/4) pi): pinned is its lower end, clamped stays below
- * (n + 0.51) pi, and springs lie between, for each adds one positive rank-one term. */
-static double root(int n, double xi2, const beam_end ends[2])
+ * (n + 0.51) pi, and springs lie between, for each adds one positive rank-one term. `f`: there. */
+static double root(int n, double xi2, const beam_end ends[2], characteristic *f)
 {
     double low = n * M_PI, high = low + 0.75 * M_PI;
-    if (ends[0].a == 0 && ends[1].a == 0)
-        return low;
-    double b = guess(n, xi2, ends);
+    const bool pinned = ends[0].a == 0 && ends[1].a == 0;
+    double b = pinned ? low : guess(n, xi2, ends);
     const double sign = n % 2 ? -1 : 1; /* F has this sign above the root */
-    bool close = false;
+    bool close = pinned;
     for (int i = 0; i < 80; i++) {
-        const characteristic f = evaluate(b, xi2, ends);
-        if (close)
-            return b - f.f / f.by_b;
-        *(sign * f.f < 0 ? &low : &high) = b;
-        double next = b - f.f / f.by_b;
-        if (!(next > low && next < high))
-            next = 0.5 * (low + high);
-        close = fabs(next - b) < STEP_SMALL * b;
-        b = next;
+        *f = evaluate(b, xi2, ends);
+        const double by = pinned ? 0 : f->f / f->by_b;
+        if (close || fabs(by) < STEP_NONE * b) /* only the last bits of b move */
+            return b - by;
+        close = fabs(by) < STEP_SMALL * b; /* no bracket: rounding decides the sign of F here */
+        if (close) {
+            b -= by;
+            continue;
+        }
+        *(sign * f->f < 0 ? &low : &high) = b;
+        b = b - by > low && b - by < high ? b - by : 0.5 * (low + high);
     }
     return b;
-}
-
-static beam_mode string_mode(int n, const beam_end ends[2])
-{
-    beam_mode mode = {.om = n * M_PI, .b = n * M_PI, .tension = 1};
-    (void)ends;
-    return mode;
 }
 
 beam_mode beam_solve(int n, double u, const beam_end ends[2])
 {
     if (u == 0)
-        return string_mode(n, ends);
-    const double xi2 = 1 / u / u, b = root(n, xi2, ends), ub2 = u * u * b * b;
-    const characteristic f = evaluate(b, xi2, ends);
+        return (beam_mode){.om = n * M_PI, .b = n * M_PI, .tension = 1};
+    characteristic f;
+    const double xi2 = 1 / u / u, b = root(n, xi2, ends, &f), ub2 = u * u * b * b;
     const double bend = ub2 / (1 + ub2), factor = -2 * (1 + bend) / (b * f.by_b);
     beam_mode mode = {.om = b * sqrt(1 + ub2), .b = b};
     double by_kappa = 0;

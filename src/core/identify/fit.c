@@ -8,11 +8,18 @@
 
 #include "core/numerics/linalg.h"
 
-#define ITERATIONS_MAX 200
+#define ITERATIONS_MAX 80
 /* Steps of less are taken without looking: chi^2 is drowned by rounding then. */
 #define STEP_BLIND 1e-7
 #define STEP_LAST  1e-13
-#define BLIND_MAX  6
+/* Enough where chi^2 alone is wanted, which is flat there. */
+#define STEP_ROUGH 1e-7
+#define BLIND_MAX  30
+#define UPHILL_MAX 4
+/* Where chi^2 alone is wanted: so many steps that gain less end it. */
+#define GAIN_SMALL 1e-7
+#define IDLE_MAX   7
+#define LAMBDA_MAX 1e12
 /* u: beyond, the tension is below 1e-6 of what bending gives */
 #define U_MAX 1e3
 /* Longest step of a logarithm. */
@@ -66,11 +73,9 @@ static void data_rows(const problem *p, fit *f, bool inner)
     }
 }
 
+/* Residuals and derivatives of the predictions that `f` holds. */
 static strum_status look(const problem *p, fit *f)
 {
-    const strum_status status = model_predict(p, &f->at, f->predictions);
-    if (status != STRUM_OK)
-        return status;
     data_rows(p, f, true);
     prior_rows(p, f, true);
     f->chi2 = 0;
@@ -95,51 +100,61 @@ double state_chi2(const problem *p, const state *s, const prediction *out)
     return isfinite(sum) ? sum : HUGE_VAL;
 }
 
-/* Chi^2 of a state alone. */
-static strum_status chi2_at(const problem *p, const state *s, double *chi2)
+/* A fixity goes to its bound in strides: a fit that jumps there may find itself in another valley. */
+static double fixity_room(double distance)
 {
-    prediction out[DATA_MAX];
-    const strum_status status = model_predict(p, s, out);
-    *chi2 = status == STRUM_OK ? state_chi2(p, s, out) : HUGE_VAL;
-    return status;
+    return distance < 0.04 ? distance : 0.5 * distance + 0.02;
+}
+
+/* How far coordinate `j` may go down and up. Tension ends where bending alone is left of the cable,
+ * whether u or, with EI known, T itself is the coordinate. */
+static void room(const problem *p, const fit *f, size_t j, double *down, double *up)
+{
+    const int q = f->which[j];
+    *down = *up = HUGE_VAL;
+    if (q == FIXITY) {
+        *down = fixity_room(f->at.q[FIXITY]);
+        *up = fixity_room(1 - f->at.q[FIXITY]);
+    } else if (q == BENDING) {
+        *down = f->at.u;
+        *up = fmax(0, U_MAX - f->at.u);
+    } else if (q == TENSION && !p->unknown[BENDING] && f->at.u > 0) {
+        *down = fmax(0, 2 * log(U_MAX / f->at.u));
+    }
 }
 
 /* A coordinate rests at a bound that chi^2 pushes it against. */
-static bool held(const fit *f, size_t j)
+static bool held(const problem *p, const fit *f, size_t j)
 {
-    const int q = f->which[j];
-    const double x = q == BENDING ? f->at.u : q == FIXITY ? f->at.q[FIXITY] : 0.5;
-    const double top = q == BENDING ? U_MAX : 1;
-    if ((q != BENDING && q != FIXITY) || (x > 0 && x < top))
+    double down, up, downhill = 0;
+    room(p, f, j, &down, &up);
+    if (down > 0 && up > 0)
         return false;
-    double downhill = 0;
     for (size_t i = 0; i < f->rows; i++)
         downhill += f->jacobian[i + j * f->rows] * f->residuals[i];
-    return x <= 0 ? downhill <= 0 : downhill >= 0;
+    return down <= 0 ? downhill <= 0 : downhill >= 0;
 }
 
-/* Step of the free coordinates, with the damping `lambda`; false where there is none. */
-static bool step(const fit *f, double lambda, double dx[UNKNOWNS_MAX])
+/* Least squares step of the coordinates `free_of`, with the damping `lambda`, where the others step
+ * by what `dx` has; false where there is none. */
+static bool solve_step(const fit *f, double lambda, const size_t *free_of, size_t n,
+                       double dx[UNKNOWNS_MAX])
 {
     double a[(ROWS_MAX + UNKNOWNS_MAX) * UNKNOWNS_MAX], b[ROWS_MAX + UNKNOWNS_MAX];
-    size_t free_of[UNKNOWNS_MAX], n = 0;
-    memset(dx, 0, UNKNOWNS_MAX * sizeof *dx);
-    for (size_t j = 0; j < f->unknowns; j++)
-        if (!held(f, j))
-            free_of[n++] = j;
-    if (n == 0)
-        return true;
     const size_t extra = lambda > 0 || f->rows < n ? n : 0, rows = f->rows + extra;
-    memset(a, 0, sizeof a);
-    memset(b, 0, sizeof b);
-    memcpy(b, f->residuals, f->rows * sizeof *b);
+    for (size_t i = 0; i < f->rows; i++) {
+        b[i] = f->residuals[i];
+        for (size_t j = 0; j < f->unknowns; j++)
+            b[i] -= f->jacobian[i + j * f->rows] * dx[j];
+    }
+    memset(b + f->rows, 0, extra * sizeof *b);
     for (size_t k = 0; k < n; k++) {
         const double *column = &f->jacobian[free_of[k] * f->rows];
         double norm = 0;
-        for (size_t i = 0; i < f->rows; i++) {
-            a[i + k * rows] = column[i];
+        for (size_t i = 0; i < f->rows; i++)
             norm += column[i] * column[i];
-        }
+        memcpy(&a[k * rows], column, f->rows * sizeof *a);
+        memset(&a[k * rows + f->rows], 0, extra * sizeof *a);
         if (extra > 0)
             a[f->rows + k + k * rows] = sqrt(fmax(lambda, 1e-12) * norm) + 1e-150;
     }
@@ -153,6 +168,36 @@ static bool step(const fit *f, double lambda, double dx[UNKNOWNS_MAX])
     return true;
 }
 
+/* The step within the bounds: what would pass one stops there, and the others follow. */
+static bool step(const problem *p, const fit *f, double lambda, double dx[UNKNOWNS_MAX])
+{
+    size_t free_of[UNKNOWNS_MAX], n = 0;
+    for (size_t j = 0; j < f->unknowns; j++)
+        if (!held(p, f, j))
+            free_of[n++] = j;
+    memset(dx, 0, UNKNOWNS_MAX * sizeof *dx);
+    while (n > 0) {
+        for (size_t k = 0; k < n; k++)
+            dx[free_of[k]] = 0;
+        if (!solve_step(f, lambda, free_of, n, dx))
+            return false;
+        size_t kept = 0;
+        for (size_t k = 0; k < n; k++) {
+            const size_t j = free_of[k];
+            double down, up;
+            room(p, f, j, &down, &up);
+            const double d = fmin(fmax(dx[j], -down), up);
+            if (d == dx[j])
+                free_of[kept++] = j;
+            dx[j] = d;
+        }
+        if (kept == n)
+            break;
+        n = kept;
+    }
+    return true;
+}
+
 /* How far a step goes, as a share of what it changes. */
 static double step_size(const fit *f, const double dx[UNKNOWNS_MAX])
 {
@@ -160,6 +205,14 @@ static double step_size(const fit *f, const double dx[UNKNOWNS_MAX])
     for (size_t j = 0; j < f->unknowns; j++)
         size = fmax(size, fabs(dx[j]) / (f->which[j] == BENDING ? f->at.u + 1e-9 : 1));
     return size;
+}
+
+/* Where bending rules the data tell EI = T (L u)^2, and the valley of chi^2 is straight in ln u;
+ * towards 0 u itself leads on, and where something is known of EI not to 0 in one stride. */
+static double moved_u(double u, double d, bool known)
+{
+    const double next = d > -0.5 * u ? u * exp(fmin(d / u, LOG_STEP_MAX)) : u + d;
+    return fmin(fmax(u > 0 ? next : d, known ? 0.1 * u : 0), U_MAX);
 }
 
 static state moved(const problem *p, const fit *f, const double dx[UNKNOWNS_MAX])
@@ -174,8 +227,7 @@ static state moved(const problem *p, const fit *f, const double dx[UNKNOWNS_MAX]
         const int q = f->which[j];
         const double d = scale * dx[j];
         if (q == BENDING)
-            /* not to 0 in one stride where something is known of EI */
-            s.u = fmin(fmax(s.u + d, p->prior[BENDING] > 0 ? 0.1 * s.u : 0), U_MAX);
+            s.u = moved_u(s.u, d, p->prior[BENDING] > 0);
         else if (q == FIXITY)
             s.q[q] = fmin(fmax(s.q[q] + d, 0), 1);
         else
@@ -195,38 +247,101 @@ static void begin(const problem *p, fit *f)
     state_close(p, &f->at);
 }
 
+/* A descent on its way. Valleys of chi^2 are narrow and curved where data are exact: a full step
+ * leaves the valley, and the next ones come back farther along. So some steps may go uphill before
+ * the best point is returned to, and damping begins. */
+typedef struct descent {
+    state best;
+    double best_chi2, lambda, size;
+    int uphill, blind, idle;
+} descent;
+
+static strum_status place(const problem *p, fit *f, const state *at)
+{
+    const strum_status status = model_predict(p, at, f->predictions);
+    f->at = *at;
+    return status == STRUM_OK ? look(p, f) : status;
+}
+
+static strum_status go_back(const problem *p, fit *f, descent *d)
+{
+    d->uphill = 0;
+    d->lambda = d->lambda > 0 ? d->lambda * 10 : 1e-3;
+    return place(p, f, &d->best);
+}
+
+/* One trial; `small`: too small to tell whether it helps. */
+static strum_status try_step(const problem *p, fit *f, const double *dx, bool small, descent *d)
+{
+    const state next = moved(p, f, dx);
+    strum_status status = model_predict(p, &next, f->trial);
+    if (status != STRUM_OK)
+        return status;
+    const double chi2 = state_chi2(p, &next, f->trial);
+    const bool helps = chi2 <= d->best_chi2 || (small && d->uphill == 0);
+    if (!helps && (d->lambda > 0 || d->uphill >= UPHILL_MAX || !isfinite(chi2)))
+        return go_back(p, f, d);
+    f->at = next;
+    memcpy(f->predictions, f->trial, p->count * sizeof *f->trial);
+    status = look(p, f);
+    d->uphill = helps ? 0 : d->uphill + 1;
+    if (helps) {
+        d->best = next;
+        d->best_chi2 = chi2;
+        d->lambda = d->lambda < 1e-6 ? 0 : d->lambda / 10;
+    }
+    return status;
+}
+
+static strum_status descend(const problem *p, fit *f, double last)
+{
+    double dx[UNKNOWNS_MAX];
+    begin(p, f);
+    strum_status status = place(p, f, &f->at);
+    descent d = {.best = f->at, .best_chi2 = f->chi2, .size = HUGE_VAL};
+    for (int i = 0; i < ITERATIONS_MAX && status == STRUM_OK && f->unknowns > 0; i++) {
+        const bool found = step(p, f, d.lambda, dx);
+        const double size = found ? step_size(f, dx) : HUGE_VAL;
+        const bool small = d.lambda == 0 && size < STEP_BLIND;
+        if (d.lambda > LAMBDA_MAX || (size < STEP_LAST && d.uphill == 0))
+            break;
+        if (!found || size < STEP_LAST) {
+            status = go_back(p, f, &d);
+            continue;
+        }
+        const double before = d.best_chi2;
+        status = try_step(p, f, dx, small, &d);
+        d.blind += small;
+        d.idle = d.best_chi2 < before * (1 - GAIN_SMALL) ? 0 : d.idle + 1;
+        if (last > 0 && d.idle >= IDLE_MAX)
+            break;
+        /* Rounding alone is left where small steps become no smaller. */
+        if (small && d.uphill == 0 &&
+            (size < last || d.blind >= BLIND_MAX || size > 0.9 * d.size))
+            break;
+        d.size = small ? size : HUGE_VAL;
+    }
+    return status == STRUM_OK && f->chi2 > d.best_chi2 && d.blind == 0 ? place(p, f, &d.best)
+                                                                       : status;
+}
+
 strum_status fit_descend(const problem *p, fit *f)
 {
-    begin(p, f);
-    strum_status status = look(p, f);
-    double lambda = 0, dx[UNKNOWNS_MAX];
-    int blind = 0;
-    for (int i = 0; i < ITERATIONS_MAX && status == STRUM_OK && f->unknowns > 0; i++) {
-        const bool found = step(f, lambda, dx);
-        const double size = found ? step_size(f, dx) : HUGE_VAL;
-        if (found && size < STEP_LAST)
-            break;
-        double chi2 = HUGE_VAL;
-        const state next = moved(p, f, dx);
-        if (found)
-            status = chi2_at(p, &next, &chi2);
-        const bool small = lambda == 0 && size < STEP_BLIND;
-        if (status == STRUM_OK && found && (chi2 <= f->chi2 || small)) {
-            blind += small;
-            f->at = next;
-            lambda = lambda < 1e-6 ? 0 : lambda / 10;
-            status = look(p, f);
-            if (blind >= BLIND_MAX)
-                break;
-        } else if (status == STRUM_OK) {
-            lambda = lambda > 0 ? lambda * 10 : 1e-3;
-            if (lambda > 1e12)
-                break;
-        }
-    }
+    const strum_status status = descend(p, f, 0);
     if (status == STRUM_OK) {
         data_rows(p, f, false);
         prior_rows(p, f, false);
     }
     return status;
+}
+
+strum_status fit_chi2(const problem *p, fit *f)
+{
+    return descend(p, f, STEP_ROUGH);
+}
+
+void fit_start(fit *to, const fit *from)
+{
+    to->at = from->at;
+    to->chi2 = from->chi2;
 }

@@ -103,16 +103,22 @@ typedef struct fit {
     double residuals[ROWS_MAX];
     double jacobian[ROWS_MAX *
                     UNKNOWNS_MAX]; /* of data/deviation by ln quantity, rows to a column */
-    prediction predictions[DATA_MAX];
+    prediction predictions[DATA_MAX], trial[DATA_MAX];
 } fit;
 
 /* Descends from f->at; the quantities that are known are set from `p`. */
 strum_status fit_descend(const problem *p, fit *f);
+/* The same to chi^2 and about seven digits of the state, without the derivatives by ln quantity. */
+strum_status fit_chi2(const problem *p, fit *f);
+/* A copy of what a fit begins from. */
+void fit_start(fit *to, const fit *from);
 /* All minima, the lowest first; `fits` has room for STRUM_IDENTIFY_SOLUTIONS_MAX. */
 strum_status scan_minima(const problem *p, fit *fits, size_t *count, size_t *minima);
 
-/* Interval of quantity `which` where chi^2 rises by `rise` at most; NAN where there is no end. */
-strum_status profile_interval(const problem *p, const fit *best, int which, double rise,
-                              double start, double *low, double *high);
+/* Interval of quantity `which` about a minimum, where chi^2 is at most `rise` above
+ * `lowest`; NAN where there is no
+ * end. */
+strum_status profile_interval(const problem *p, const fit *from, int which, double lowest,
+                              double rise, double start, double *low, double *high);
 
 #endif

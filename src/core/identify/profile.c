@@ -8,11 +8,16 @@
 
 #define STRETCHES_MAX 14
 #define STEPS_MAX     40
-#define CLOSE         1e-10
+#define FIRST_MAX     0.3 /* where the linear guess is far too wide, as with bounds */
+/* Beyond, the tension is no more than 1e-4 of what bending does. */
+#define U_FREE 100.0
+/* Beyond, the ends are no thin layers: bending tells the fixity. */
+#define U_LAYERS 0.1
+#define CLOSE    1e-9
 
 typedef struct profile {
     problem held;
-    fit last; /* the nearest fit so far, to begin from */
+    fit last, other; /* the nearest fit so far, to begin from */
     double lowest, rise, scale;
     int which;
 } profile;
@@ -23,11 +28,27 @@ static double value_of(const profile *f, double x)
     return f->which == FIXITY ? x : f->which == BENDING ? x * x * f->scale : exp(x);
 }
 
+/* Chi^2 has one valley for each side of the fixity's range where bending says little: the nearest
+ * fit follows one, another begins from the other side. */
+static strum_status other_side(profile *f)
+{
+    if (!f->held.unknown[FIXITY] || f->last.at.u > U_LAYERS)
+        return STRUM_OK;
+    fit_start(&f->other, &f->last);
+    f->other.at.q[FIXITY] = f->last.at.q[FIXITY] < 0.5 ? 0.75 : 0.25;
+    const strum_status status = fit_chi2(&f->held, &f->other);
+    if (status == STRUM_OK && f->other.chi2 < f->last.chi2)
+        fit_start(&f->last, &f->other);
+    return status == STRUM_ERR_ACCURACY ? STRUM_OK : status;
+}
+
 /* sqrt(chi^2 - minimum) less the quantile. */
 static strum_status height(profile *f, double x, double *h)
 {
     f->held.value[f->which] = value_of(f, x);
-    const strum_status status = fit_descend(&f->held, &f->last);
+    strum_status status = fit_chi2(&f->held, &f->last);
+    if (status == STRUM_OK)
+        status = other_side(f);
     *h = sqrt(fmax(0, f->last.chi2 - f->lowest)) - sqrt(f->rise);
     return status;
 }
@@ -61,7 +82,7 @@ static strum_status refine(profile *f, double inner, double h_inner, double oute
 /* One side: steps of `step` outward until chi^2 has risen enough. */
 static strum_status find_end(profile *f, double from, double step, double *end)
 {
-    double inner = from, h_inner = -sqrt(f->rise);
+    double inner = from, h_inner = sqrt(fmax(0, f->last.chi2 - f->lowest)) - sqrt(f->rise);
     for (int i = 0; i < STRETCHES_MAX; i++, step *= 1.8) {
         const double outer = clip(f, inner + step);
         double h = 0;
@@ -76,6 +97,10 @@ static strum_status find_end(profile *f, double from, double step, double *end)
             *end = value_of(f, outer);
             return STRUM_OK;
         }
+        if (f->which == TENSION && f->last.at.u > U_FREE) {
+            *end = 0; /* bending alone fits too */
+            return STRUM_OK;
+        }
         if (fabs(outer - from) > 20 && f->which != BENDING)
             return STRUM_OK; /* no end on this side */
         inner = outer;
@@ -84,10 +109,10 @@ static strum_status find_end(profile *f, double from, double step, double *end)
     return STRUM_OK;
 }
 
-strum_status profile_interval(const problem *p, const fit *best, int which, double rise,
-                              double start, double *low, double *high)
+strum_status profile_interval(const problem *p, const fit *best, int which, double lowest,
+                              double rise, double start, double *low, double *high)
 {
-    profile f = {.held = *p, .lowest = best->chi2, .rise = rise, .which = which};
+    profile f = {.held = *p, .lowest = lowest, .rise = rise, .which = which};
     const double value = best->at.q[which];
     f.held.unknown[which] = false;
     f.scale = value > 0 ? value : best->at.q[TENSION] * best->at.q[LENGTH] * best->at.q[LENGTH];
@@ -98,11 +123,11 @@ strum_status profile_interval(const problem *p, const fit *best, int which, doub
     double step = which == BENDING ? (value > 0 ? fmin(0.5 * start, 1) : 1e-3) : start;
     if (which == FIXITY)
         step = fmin(step, 0.5);
-    step = isfinite(step) && step > 0 ? fmin(step, 2.0) : 0.05;
+    step = isfinite(step) && step > 0 ? fmin(step, FIRST_MAX) : 0.05;
     strum_status status = STRUM_OK;
     *low = *high = NAN;
     for (int side = -1; side <= 1 && status == STRUM_OK; side += 2) {
-        f.last = *best;
+        fit_start(&f.last, best);
         status = find_end(&f, from, side * step, side < 0 ? low : high);
     }
     return status;

@@ -3,12 +3,15 @@
 
 #include <gsl/gsl_cdf.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/numerics/linalg.h"
 
 /* Columns that are parallel to this: no data of these modes could tell them apart. */
 #define STRUCTURAL 1e-10
+#define ACTS       1e-6
+#define ROUNDING   1e-15
 /* Intervals wider than this factor (e^2) do not determine a quantity. */
 #define WIDE 2.0
 /* A frequency disagrees when its residual is beyond this quantile, by Bonferroni's rule. */
@@ -40,7 +43,7 @@ static strum_status decompose(strum_identify *f)
         double norm = 0;
         for (size_t i = 0; i < best->rows; i++)
             norm += column[i] * column[i];
-        f->regular[j] = sqrt(norm) > 1e-14 * scale;
+        f->regular[j] = sqrt(norm) > 1e-10 * scale;
         if (f->regular[j]) {
             memcpy(&a[(size_t)n * best->rows], column, best->rows * sizeof *a);
             which[n++] = (int)j;
@@ -54,9 +57,11 @@ static strum_status decompose(strum_identify *f)
         s->weakest[which[i]] = vt[(n - 1) + i * n];
         for (int j = 0; j < n; j++) {
             double sum = 0;
-            for (int k = 0; k < n; k++)
-                sum += vt[k + i * n] * vt[k + j * n] /
-                       (s->singular_values[k] * s->singular_values[k]);
+            for (int k = 0; k < n; k++) {
+                /* 0 to rounding: no bound, but a number */
+                const double sv = fmax(s->singular_values[k], ROUNDING * s->singular_values[0]);
+                sum += vt[k + i * n] / sv * (vt[k + j * n] / sv);
+            }
             f->covariance[which[i]][which[j]] = sum;
         }
     }
@@ -81,28 +86,43 @@ static strum_status refuse_combination(const strum_identify *f, const int *colum
         text);
 }
 
+/* Columns of the quantities that act on the data, each of length 1. The fixity is left out: data
+ * hardly tell it, but never not at all. So is what acts by less than ACTS of the strongest. */
+static int unit_columns(const strum_identify *f, double *a, double *norms, int *columns)
+{
+    const fit *best = &f->fits[0];
+    double norm[UNKNOWNS_MAX] = {0}, largest = 0;
+    int n = 0;
+    for (size_t j = 0; j < best->unknowns; j++) {
+        for (size_t i = 0; i < best->rows; i++)
+            norm[j] += pow(best->jacobian[i + j * best->rows], 2);
+        norm[j] = sqrt(norm[j]);
+        largest = fmax(largest, norm[j]);
+    }
+    for (size_t j = 0; j < best->unknowns; j++) {
+        if (!(norm[j] > ACTS * largest) || best->which[j] == FIXITY)
+            continue;
+        for (size_t i = 0; i < best->rows; i++)
+            a[i + (size_t)n * best->rows] = best->jacobian[i + j * best->rows] / norm[j];
+        norms[n] = norm[j];
+        columns[n++] = (int)j;
+    }
+    return n;
+}
+
 static strum_status test_structure(const strum_identify *f, strum_error *error)
 {
     const fit *best = &f->fits[0];
     double a[ROWS_MAX * UNKNOWNS_MAX], values[UNKNOWNS_MAX], vt[UNKNOWNS_MAX * UNKNOWNS_MAX];
-    int columns[UNKNOWNS_MAX], n = 0;
     double norms[UNKNOWNS_MAX];
-    for (size_t j = 0; j < best->unknowns; j++) {
-        const double *column = &best->jacobian[j * best->rows];
+    int columns[UNKNOWNS_MAX];
+    for (size_t j = 0; j < best->unknowns; j++)
         if (!f->regular[j] && best->which[j] == AXIAL)
-            return error_at(
-                error, STRUM_ERR_IMPOSSIBLE, STRUM_IDENTIFY_ARG_UNKNOWNS, STRUM_NO_INDEX,
-                "the axial stiffness does not act on these modes (antisymmetric ones)");
-        if (!f->regular[j] || best->which[j] == FIXITY)
-            continue;
-        double norm = 0;
-        for (size_t i = 0; i < best->rows; i++)
-            norm += column[i] * column[i];
-        norms[n] = sqrt(norm);
-        for (size_t i = 0; i < best->rows; i++)
-            a[i + (size_t)n * best->rows] = column[i] / norms[n];
-        columns[n++] = (int)j;
-    }
+            return error_at(error, STRUM_ERR_IMPOSSIBLE, STRUM_IDENTIFY_ARG_UNKNOWNS,
+                            STRUM_NO_INDEX,
+                            "the axial stiffness does not act on these modes (antisymmetric "
+                            "ones)");
+    const int n = unit_columns(f, a, norms, columns);
     if (n < 2 || best->rows < (size_t)n)
         return STRUM_OK;
     const strum_status status =
@@ -189,19 +209,27 @@ static bool narrow(const strum_identify_estimate *e, int q, bool interval)
     return isfinite(e->low) && isfinite(e->high) && e->low > 0 && log(e->high / e->low) < WIDE;
 }
 
-/* The interval is that of the best minimum: others that fit may lie elsewhere. */
-static bool solutions_within(const strum_identify *f, int q, const strum_identify_estimate *e,
-                             bool interval)
+/* The intervals about all minima that fit, as one. An end that is missing stays so. */
+static strum_status interval(strum_identify *f, int q, double rise, double start,
+                             strum_identify_estimate *e)
 {
-    for (size_t i = 1; i < f->solution_count; i++) {
+    for (size_t i = 0; i < f->solution_count; i++) {
         const double x = f->solutions[i].values[q];
-        if (!interval || !(x >= e->low * (1 - 1e-9) && x <= e->high * (1 + 1e-9)))
-            return false;
+        double low, high;
+        if (i > 0 && (x >= e->low || isnan(e->low)) && (x <= e->high || isnan(e->high)))
+            continue; /* within already */
+        const strum_status status =
+            profile_interval(&f->p, &f->fits[i], q, f->fits[0].chi2, rise, start, &low, &high);
+        if (status != STRUM_OK)
+            return status;
+        e->low = i == 0 ? low : isnan(low) || isnan(e->low) ? NAN : fmin(low, e->low);
+        e->high = i == 0 ? high : isnan(high) || isnan(e->high) ? NAN : fmax(high, e->high);
     }
-    return true;
+    return STRUM_OK;
 }
 
-/* Without standard deviations and degrees of freedom the values alone. */
+/* Without standard deviations and degrees of freedom the values alone. An unknown fixity joins its
+ * minima; others lie apart, and then the data do not determine. */
 static strum_status estimate(strum_identify *f, size_t j, double rise)
 {
     const fit *best = &f->fits[0];
@@ -215,9 +243,9 @@ static strum_status estimate(strum_identify *f, size_t j, double rise)
     if (exact)
         e->low = e->high = e->value;
     else if (isfinite(rise))
-        status = profile_interval(&f->p, best, q, rise, sqrt(rise / f->variance) * spread,
-                                  &e->low, &e->high);
-    e->determined = narrow(e, q, isfinite(rise)) && solutions_within(f, q, e, isfinite(rise));
+        status = interval(f, q, rise, sqrt(rise / f->variance) * spread, e);
+    e->determined =
+        narrow(e, q, isfinite(rise)) && (f->solution_count == 1 || f->p.unknown[FIXITY]);
     return status;
 }
 
@@ -272,18 +300,20 @@ static double studentized(const strum_identify *f, double residual, double h)
 }
 
 /* The tension of the fit without datum i; NAN where there is none. */
-static strum_status without(const strum_identify *f, size_t i, double *tension)
+static strum_status without(problem *less, const fit *best, size_t i, fit *other,
+                            double *tension)
 {
-    problem less = f->p;
-    fit other = f->fits[0];
-    less.skip[i] = true;
+    strum_status status = STRUM_OK;
     *tension = NAN;
-    if (!f->p.unknown[TENSION] || problem_rows(&less) < other.unknowns ||
-        problem_data(&less) == 0)
-        return STRUM_OK;
-    const strum_status status = fit_descend(&less, &other);
-    if (status == STRUM_OK)
-        *tension = other.at.q[TENSION];
+    less->skip[i] = true;
+    if (less->unknown[TENSION] && problem_rows(less) >= best->unknowns &&
+        problem_data(less) > 0) {
+        fit_start(other, best);
+        status = fit_chi2(less, other);
+        if (status == STRUM_OK)
+            *tension = other->at.q[TENSION];
+    }
+    less->skip[i] = false;
     return status == STRUM_ERR_ACCURACY ? STRUM_OK : status;
 }
 
@@ -307,12 +337,12 @@ static void find_outlier(strum_identify *f)
         s->outlier == STRUM_NO_INDEX ? NAN : f->modes[s->outlier].tension_without;
 }
 
-static strum_status report_datum(strum_identify *f, size_t i, size_t row,
-                                 strum_identify_mode *m)
+static void report_datum(strum_identify *f, size_t i, size_t row, strum_identify_mode *m)
 {
     const fit *best = &f->fits[0];
     const problem *p = &f->p;
     const prediction *o = &best->predictions[i];
+    m->excluded = p->skip[i];
     m->mode = p->modes[i];
     m->measured = p->measured[i];
     m->computed = o->value;
@@ -327,25 +357,25 @@ static strum_status report_datum(strum_identify *f, size_t i, size_t row,
     if (p->chain == NULL && i < p->ratios_at)
         m->string_rule =
             state_mass(p, &best->at) * pow(2 * best->at.q[LENGTH] * m->measured / m->mode, 2);
-    return p->skip[i] ? STRUM_OK : without(f, i, &m->tension_without);
 }
 
 strum_status report_modes(strum_identify *f, const strum_identify_params *params)
 {
-    fit *best = &f->fits[0];
-    strum_status status = STRUM_OK;
+    fit *best = &f->fits[0], *other = calloc(1, sizeof *other);
+    problem less = f->p;
     size_t row = 0;
     /* also of what was left out of the fit */
-    problem all = f->p;
-    memset(all.skip, 0, sizeof all.skip);
-    status = model_predict(&all, &best->at, best->predictions);
+    memset(less.skip, 0, sizeof less.skip);
+    strum_status status =
+        other == NULL ? STRUM_ERR_MEMORY : model_predict(&less, &best->at, best->predictions);
+    memcpy(less.skip, f->p.skip, sizeof less.skip);
     f->mode_count = params->count;
     for (size_t i = 0; i < f->p.count && status == STRUM_OK; i++) {
         strum_identify_mode *m = &f->modes[i % params->count];
         if (i < params->count) {
-            const bool excluded = f->p.skip[i];
-            *m = (strum_identify_mode){.excluded = excluded};
-            status = report_datum(f, i, row, m);
+            report_datum(f, i, row, m);
+            if (!m->excluded)
+                status = without(&less, best, i, other, &m->tension_without);
         }
         if (i >= f->p.ratios_at) {
             m->measured_ratio = f->p.measured[i];
@@ -353,6 +383,7 @@ strum_status report_modes(strum_identify *f, const strum_identify_params *params
         }
         row += !f->p.skip[i];
     }
+    free(other);
     if (status == STRUM_OK)
         find_outlier(f);
     return status;

@@ -26,6 +26,7 @@ typedef struct candidate {
 typedef struct search {
     const problem *p;
     problem thin; /* fewer data */
+    prediction out[DATA_MAX];
     candidate found[CANDIDATES_MAX];
     size_t count;
 } search;
@@ -113,7 +114,7 @@ static bool has_scale(const problem *p)
 }
 
 /* The factor of all frequencies that fits best, put into the one quantity that scales them. */
-static void rescale(const problem *p, state *s, const prediction *out)
+static void rescale(const problem *p, state *s, prediction *out)
 {
     double fg = 0, gg = 0;
     const bool *x = p->unknown;
@@ -126,6 +127,8 @@ static void rescale(const problem *p, state *s, const prediction *out)
         }
     }
     const double factor = fg / gg;
+    for (size_t i = 0; i < p->count; i++)
+        out[i].value *= factor;
     if (x[TENSION] && p->unknown[LENGTH] && !x[BENDING] && p->value[BENDING] > 0) {
         /* u and EI held: f goes with T, and L with 1/sqrt T */
         s->q[TENSION] *= factor;
@@ -149,18 +152,12 @@ static void set_u(const problem *p, state *s, double u)
     state_close(p, s);
 }
 
-static strum_status try_state(const search *s, state *at, double *chi2)
+static strum_status try_state(search *s, state *at, double *chi2)
 {
-    prediction out[DATA_MAX];
-    strum_status status = STRUM_OK;
-    if (has_scale(s->p)) {
-        status = model_predict(&s->thin, at, out);
-        if (status == STRUM_OK)
-            rescale(&s->thin, at, out);
-    }
-    if (status == STRUM_OK)
-        status = model_predict(&s->thin, at, out);
-    *chi2 = status == STRUM_OK ? state_chi2(&s->thin, at, out) : HUGE_VAL;
+    const strum_status status = model_predict(&s->thin, at, s->out);
+    if (status == STRUM_OK && has_scale(s->p))
+        rescale(&s->thin, at, s->out);
+    *chi2 = status == STRUM_OK ? state_chi2(&s->thin, at, s->out) : HUGE_VAL;
     return status;
 }
 
@@ -267,7 +264,8 @@ static strum_status sweep(search *s, path along, const state *from)
 /* Sweeps for each fixity and, with sag, for a few bending and axial stiffnesses. */
 static strum_status sweep_all(search *s)
 {
-    static const double rhos[] = {0.5, 0, 0.25, 0.75, 1}, us[] = {1e-3, 4e-3, 0.015, 0.06, 0.2};
+    static const double rhos[] = {0.5, 0.08, 0.27, 0.73, 0.92},
+                        us[] = {1e-3, 4e-3, 0.015, 0.06, 0.2};
     static const double lambda2s[] = {0.1, 1, 5, 20, 60};
     const problem *p = s->p;
     const path along = choose(p);

@@ -279,6 +279,28 @@ static strum_status find(strum_identify *f, strum_error *error)
     return status;
 }
 
+/* Figures that are no doubles, of cables that are no cables. */
+static strum_status check_finite(const strum_identify *f, const strum_identify_params *params,
+                                 strum_error *error)
+{
+    const state *s = &f->fits[0].at;
+    bool good = isfinite(f->summary.chi_squared);
+    for (int q = 0; q < QUANTITIES; q++)
+        good = good && isfinite(s->q[q]) &&
+               (s->q[q] > 0 || !f->p.unknown[q] || q == BENDING || q == FIXITY);
+    for (size_t i = 0; i < params->count; i++)
+        good = good && isfinite(f->modes[i].computed) && !isinf(f->modes[i].string_rule) &&
+               isfinite(f->modes[i].residual);
+    for (size_t i = 0; i < f->summary.unknowns; i++)
+        for (size_t j = 0; j < f->summary.unknowns; j++)
+            good = good && isfinite(f->summary.singular_values[i]) &&
+                   isfinite(f->summary.weakest[i]) && isfinite(f->summary.correlation[i][j]);
+    return good ? STRUM_OK
+                : error_at(error, STRUM_ERR_IMPOSSIBLE, STRUM_IDENTIFY_ARG_UNKNOWNS,
+                           STRUM_NO_INDEX,
+                           "figures beyond a double: no such cable fits these frequencies");
+}
+
 static strum_status identify(strum_identify *f, const strum_identify_params *params,
                              strum_error *error)
 {
@@ -301,6 +323,8 @@ static strum_status identify(strum_identify *f, const strum_identify_params *par
     }
     if (status == STRUM_OK)
         status = report_alternatives(f);
+    if (status == STRUM_OK)
+        status = check_finite(f, params, error);
     return status;
 }
 

@@ -6,6 +6,8 @@
 
 /* Modes looked at beyond those asked, so that a group is whole. */
 #define EDGE (TAUT_CLUSTER_MAX - 1)
+/* Steps of a branch of a group, before all of it is followed together. */
+#define STEPS_IN_GROUP 150
 
 /* Roots that a branch ends with. */
 static int branch_roots(const taut_branch *branch)
@@ -119,11 +121,15 @@ static strum_status follow(taut_solve *s, double *w, double *gap, double below, 
                      up = (i + 1 < count ? w[i + 1] : above) - w[i];
         gap[i] = fmin(s->search.spacing, fmin(down, up));
         gap[i] = fmax(gap[i], 0.2 * s->search.spacing);
+        /* in a group there is another way than to creep */
+        const bool grouped = fmin(down, up) <= TAUT_GROUP * s->search.spacing;
+        s->search.steps_max = grouped ? STEPS_IN_GROUP : 0;
         if (fmin(down, up) > TAUT_TWINS * w[i])
             taut_branch_follow(&s->search, branch, gap[i], 1.0, 1.0);
         else
             branch->state = TAUT_LOST; /* a double root: only as a group */
     }
+    s->search.steps_max = 0;
     part(s, w, gap);
     follow_groups(s, w, count, below, above);
     arrive(s);

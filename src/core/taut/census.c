@@ -95,8 +95,8 @@ strum_status taut_solve_complete(taut_solve *s, taut_rectangle *box, long *expec
     strum_status status = taut_solve_count(s, box, expected);
     if (status != STRUM_OK)
         return status;
-    const long known = taut_solve_inside(s, box);
-    if (known < *expected) {
+    for (int round = 0; round < 3 && taut_solve_inside(s, box) < *expected; round++) {
+        const long known = taut_solve_inside(s, box);
         const size_t before = s->known;
         if (*expected > 4 * STRUM_TAUT_ROOTS_MAX)
             return error_set(s->fault, STRUM_ERR_RANGE, "the band holds more than %d roots",

@@ -12,20 +12,22 @@
 
 #include <float.h>
 
-#define MOST  TAUT_CLUSTER_MAX
-#define TURNS 64 /* points of a circle: roots within 0.8 of the radius leave 6e-7 */
+#define MOST TAUT_CLUSTER_MAX
+/* Points of a circle: roots within 0.8 of the radius leave 6e-7, or within 0.65 1e-6. */
+#define TURNS     64
+#define TURNS_FEW 32
 
-bool taut_ring_make(taut_search *search, cplx centre, double radius, double factor,
+static bool ring_of(taut_search *search, int turns, cplx centre, double radius, double factor,
                     taut_ring *ring)
 {
     cplx power[MOST + 1] = {0.0};
-    for (int k = 0; k < TURNS; k++) {
-        const double turn = 2.0 * M_PI * (k + 0.5) / TURNS;
+    for (int k = 0; k < turns; k++) {
+        const double turn = 2.0 * M_PI * (k + 0.5) / turns;
         const cplx u = CMPLX(cos(turn), sin(turn));
         const taut_value f = taut_search_at(search, centre + radius * u, factor);
         if (search->status != STRUM_OK || f.f == 0.0)
             return false;
-        cplx term = times(u, over(f.d, f.f)) * radius / TURNS;
+        cplx term = times(u, over(f.d, f.f)) * radius / turns;
         for (int j = 0; j <= MOST; j++) {
             power[j] += term;
             term = times(term, u);
@@ -33,12 +35,24 @@ bool taut_ring_make(taut_search *search, cplx centre, double radius, double fact
     }
     const double whole = round(creal(power[0]));
     *ring = (taut_ring){.centre = centre, .radius = radius};
-    if (!(cabs(power[0] - whole) < 1e-3) || whole < 0.0 || whole > MOST)
+    if (!(cabs(power[0] - whole) < 1e-5) || whole < 0.0 || whole > MOST)
         return false;
     ring->count = (int)whole;
     for (int j = 0; j <= MOST; j++)
         ring->power[j] = power[j];
     return true;
+}
+
+bool taut_ring_make(taut_search *search, cplx centre, double radius, double factor,
+                    taut_ring *ring)
+{
+    return ring_of(search, TURNS, centre, radius, factor, ring);
+}
+
+bool taut_ring_glance(taut_search *search, cplx centre, double radius, double factor,
+                      taut_ring *ring)
+{
+    return ring_of(search, TURNS_FEW, centre, radius, factor, ring);
 }
 
 /* x^m - e[1] x^{m-1} + e[2] x^{m-2} - ... at x. */
@@ -136,34 +150,28 @@ static bool polish(taut_search *search, const taut_ring *ring, double factor, cp
     return rests && cabs(sum - ring->power[1]) < 1e-5;
 }
 
-/* About a centre on the real axis: what comes within rounding of it lies on it. Two that
- * rounding does not tell apart either are one place. */
+/* About a centre on the real axis: what comes within rounding of it lies on it. */
 static void settle_on_axis(taut_search *search, const taut_ring *ring, double factor, cplx *s)
 {
     cplx real[MOST];
     const double scale = cabs(ring->centre) + 1e-3 * search->spacing;
-    double mean = 0.0, off = 0.0;
-    int near = 0;
+    bool off = false;
     for (int i = 0; i < ring->count; i++) {
-        real[i] = s[i];
-        if (!(fabs(cimag(s[i])) < 1e-6 * scale))
-            continue;
-        off = fmax(off, fabs(cimag(s[i])));
-        mean = (mean * near + creal(s[i])) / (near + 1);
-        near++;
-        real[i] = creal(s[i]);
+        const bool near = fabs(cimag(s[i])) < 1e-6 * scale;
+        real[i] = near ? creal(s[i]) : s[i];
+        off = off || (near && cimag(s[i]) != 0.0);
         for (int k = 0; k < i; k++) /* from two different places */
             if (real[k] == real[i])
                 real[i] += 1e-9 * scale;
     }
-    if (off == 0.0)
+    if (!off)
         return;
     const bool rests = polish(search, ring, factor, real);
     for (int i = 0; i < ring->count; i++)
         if (rests)
             s[i] = real[i];
-        else if (off < 3e-8 * scale && fabs(cimag(s[i])) < 1e-6 * scale)
-            s[i] = mean;
+        else if (fabs(cimag(s[i])) < 3e-8 * scale) /* rounding does not tell them apart */
+            s[i] = creal(s[i]);
 }
 
 /* By frequency, then decay. */
@@ -174,12 +182,40 @@ static bool before(cplx a, cplx b, double same)
     return creal(a) > creal(b);
 }
 
-void taut_ring_roots(taut_search *search, const taut_ring *ring, double factor, cplx *roots)
+/* A narrower circle as long as all roots lie about one place: their power sums tell them apart
+ * to the m-th root of rounding, in radii. */
+static void zoom(taut_search *search, taut_ring *ring, double factor, cplx *x)
+{
+    by_power_sums(ring, x);
+    for (int n = 0; n < 12 && ring->count > 1; n++) {
+        const cplx mean = ring->power[1] / ring->count;
+        double spread = 0.0;
+        for (int i = 0; i < ring->count; i++)
+            spread = fmax(spread, cabs(x[i] - mean));
+        taut_ring next;
+        if (spread > 0.02 || cabs(mean) > 0.9 ||
+            !taut_ring_make(search, ring->centre + ring->radius * mean,
+                            ring->radius * fmax(5.0 * spread, 0.01), factor, &next) ||
+            next.count != ring->count)
+            return;
+        if (cimag(ring->centre) == 0.0 && fabs(cimag(mean)) < 1e-9) {
+            const cplx real = creal(next.centre);
+            if (!taut_ring_make(search, real, next.radius, factor, &next) ||
+                next.count != ring->count)
+                return;
+        }
+        *ring = next;
+        by_power_sums(ring, x);
+    }
+}
+
+void taut_ring_roots(taut_search *search, const taut_ring *given, double factor, cplx *roots)
 {
     cplx x[MOST], s[MOST];
-    if (ring->count == 0)
+    taut_ring narrow = *given, *ring = &narrow;
+    if (given->count == 0)
         return;
-    by_power_sums(ring, x);
+    zoom(search, ring, factor, x);
     for (int i = 0; i < ring->count; i++)
         s[i] = ring->centre + ring->radius * x[i];
     for (int i = 0; i < ring->count; i++)
@@ -187,7 +223,7 @@ void taut_ring_roots(taut_search *search, const taut_ring *ring, double factor, 
     if (polish(search, ring, factor, s))
         for (int i = 0; i < ring->count; i++)
             roots[i] = s[i];
-    if (cimag(ring->centre) == 0.0)
+    if (cimag(given->centre) == 0.0)
         settle_on_axis(search, ring, factor, roots);
     const double same = 1e-12 * cabs(ring->centre);
     for (int i = 1; i < ring->count; i++)
@@ -196,6 +232,15 @@ void taut_ring_roots(taut_search *search, const taut_ring *ring, double factor, 
             roots[k] = roots[k - 1];
             roots[k - 1] = kept;
         }
+}
+
+void taut_ring_rough(const taut_ring *ring, cplx *roots)
+{
+    if (ring->count == 0)
+        return;
+    by_power_sums(ring, roots);
+    for (int i = 0; i < ring->count; i++)
+        roots[i] = ring->centre + ring->radius * roots[i];
 }
 
 double taut_ring_apart(const taut_ring *ring, const cplx *roots)

@@ -96,8 +96,8 @@ static strum_status solve_run(taut_solve *s, long first, long last)
         if (s->branches[k - s->first].state == TAUT_LOST) {
             const bool rigid = s->branches[k - s->first].s[0] == 0.0;
             if (rigid)
-                status = taut_roots_add(s->out, (strum_taut_root){k, 0.0, 0.0, INFINITY}, false,
-                                        s->fault);
+                status = taut_roots_add(s->out, (strum_taut_root){k, 0.0, 0.0, INFINITY, 0.0},
+                                        false, s->fault);
         }
         for (size_t i = 0; i < s->known && status == STRUM_OK; i++)
             if (s->mode[i] == k && cimag(s->s[i]) > 0.0)

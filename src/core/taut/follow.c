@@ -189,6 +189,7 @@ void taut_branch_start(taut_branch *branch, long mode, double w)
 void taut_branch_follow(taut_search *search, taut_branch *branch, double gap, double factor,
                         double reach)
 {
+    const int steps = search->steps_max > 0 ? search->steps_max : STEPS_MAX;
     for (int n = 0; branch->factor < factor && branch->state != TAUT_LOST; n++) {
         cplx *s = branch->s, speeds[2] = {0.0, 0.0};
         double reaches[2] = {0.0, 0.0};
@@ -218,7 +219,7 @@ void taut_branch_follow(taut_search *search, taut_branch *branch, double gap, do
             continue;
         reaches[0] *= 0.5 * reach;
         reaches[1] *= 0.5 * reach;
-        if (n > STEPS_MAX || search->status != STRUM_OK ||
+        if (n > steps || search->status != STRUM_OK ||
             !step(search, branch, speeds, reaches, factor)) {
             branch->state = TAUT_LOST;
             branch->meets = !(reaches[0] > 1e-3 * search->spacing);
@@ -254,7 +255,8 @@ strum_status strum_taut_follow(const strum_taut *chain, long mode, const double 
             return error_set(error, STRUM_ERR_ACCURACY,
                              "mode %ld cannot be followed beyond %.6g times the damping", mode,
                              branch.factor);
-        roots[i] = (strum_taut_root){mode, cimag(branch.s[0]), -creal(branch.s[0]), INFINITY};
+        roots[i] =
+            (strum_taut_root){mode, cimag(branch.s[0]), -creal(branch.s[0]), INFINITY, 0.0};
     }
     return STRUM_OK;
 }

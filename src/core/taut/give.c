@@ -2,6 +2,8 @@
 /* What a damped solve gives out of the roots that it knows. */
 #include "core/taut/solve.h"
 
+#include <float.h>
+
 /* At which relative change of the damping a root meets its nearest neighbour (or its
  * conjugate): the squared distance of two roots is smooth in the damping, (s1 - s2)^2 / (its
  * rate). */
@@ -22,12 +24,30 @@ static double exceptional(taut_solve *s, size_t i)
     return apart == 0.0 ? INFINITY : 0.5 * nearest / cabs(apart);
 }
 
+/* What rounding leaves uncertain of a root, relative. Next to a damper that matches its cable
+ * the root hangs on the difference of two nearly equal impedances: a few roundings of the
+ * damping move it far. */
+static double error_of(taut_solve *s, cplx root)
+{
+    taut_search *search = &s->search;
+    const long evaluations = search->evaluations; /* not of the search */
+    double unused;
+    const taut_value value = taut_search_value(search, root);
+    const cplx beside = root + 1e-6 * search->spacing;
+    const double rise = cabs(taut_search_value(search, beside).f);
+    const double off = taut_noise(search, beside, 1.0) * rise / cabs(value.d);
+    const double moved = 4.0 * DBL_EPSILON * cabs(taut_speed(search, root, 1.0, &unused));
+    search->evaluations = evaluations;
+    const double error = fmax(off, moved) / taut_solve_scale(s, root);
+    return isfinite(error) ? fmax(error, DBL_EPSILON) : 1.0;
+}
+
 strum_taut_root taut_solve_plain(const taut_solve *s, size_t i)
 {
     const double frequency = cimag(s->s[i]), decay = -creal(s->s[i]);
     /* what is only rounding is none: even modes pass by their absorbers */
     return (strum_taut_root){s->mode[i], frequency, decay < 4e-15 * frequency ? 0.0 : decay,
-                             INFINITY};
+                             INFINITY, 0.0};
 }
 
 strum_status taut_solve_give(taut_solve *s, size_t i, bool overdamped)
@@ -39,6 +59,7 @@ strum_status taut_solve_give(taut_solve *s, size_t i, bool overdamped)
         s->out->max_residual = fmax(s->out->max_residual,
                                     cabs(over(value.f, value.d)) / taut_solve_scale(s, root));
     out.exceptional = exceptional(s, i);
+    out.error = error_of(s, root);
     return taut_roots_add(s->out, out, overdamped, s->fault);
 }
 

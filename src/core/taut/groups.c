@@ -19,41 +19,45 @@ typedef struct group {
     int count;
     double factor, step, radius, widest;
     cplx centre, speed;
+    taut_ring at; /* where the group stands */
     cplx roots[TAUT_CLUSTER_MAX];
 } group;
 
-static double spread(const group *g)
+/* Stands at a circle that holds the group and nothing else. */
+static void stand(group *g, const taut_ring *ring, double factor)
 {
-    double most = 0.0;
-    for (int i = 0; i < g->count; i++)
-        most = fmax(most, cabs(g->roots[i] - g->centre));
-    return most;
+    taut_ring_rough(ring, g->roots);
+    g->at = *ring;
+    const cplx mean = ring->centre + ring->radius * ring->power[1] / g->count;
+    g->speed = (mean - g->centre) / (factor - g->factor);
+    g->centre = mean;
+    g->factor = factor;
+    g->radius = fmin(1.5 * g->radius, g->widest);
 }
 
 /* One step on; false when no circle there holds all of the group and nothing else. */
 static bool advance(group *g)
 {
     taut_search *search = g->search;
-    for (int n = 0; n < 12 && search->status == STRUM_OK; n++) {
+    while (search->status == STRUM_OK && g->step > 1e-12 * (1e-3 + g->factor) &&
+           g->radius > NARROWEST * search->spacing) {
         const double factor = fmin(g->factor + g->step, 1.0), ahead = factor - g->factor;
         const cplx centre = g->centre + ahead * g->speed;
         taut_ring ring;
-        if (cimag(centre) > g->radius &&
-            taut_ring_make(search, centre, g->radius, factor, &ring) &&
-            ring.count == g->count && cabs(ring.power[1]) < 0.5 * g->count) {
-            taut_ring_roots(search, &ring, factor, g->roots);
-            const cplx mean = centre + g->radius * ring.power[1] / g->count;
-            g->speed = (mean - g->centre) / ahead;
-            g->centre = mean;
-            g->factor = factor;
-            g->step = fmin(1.6 * g->step, 0.2);
-            g->radius = fmin(1.3 * g->radius, g->widest);
-            return spread(g) < 0.6 * g->radius || spread(g) < g->widest;
+        if (cimag(centre) <= g->radius) {
+            g->radius *= 0.5;
+        } else if (!taut_ring_glance(search, centre, g->radius, factor, &ring)) {
+            g->step *= 0.5;
+            g->radius *= 0.9;
+        } else if (ring.count > g->count) {
+            g->radius *= 0.6;
+        } else if (ring.count < g->count || !(cabs(ring.power[1]) < 0.5 * g->count)) {
+            g->step *= 0.2;
+        } else {
+            stand(g, &ring, factor);
+            g->step = fmin(2.0 * ahead, 0.2);
+            return true;
         }
-        if ((n & 1) == 0)
-            g->step *= 0.4;
-        else
-            g->radius = fmax(0.5 * g->radius, NARROWEST * search->spacing);
     }
     return false;
 }
@@ -66,8 +70,10 @@ static bool part_ways(group *g)
         if (!advance(g))
             return false;
         taut_ring as = {.count = g->count};
-        if (g->factor == 1.0 || taut_ring_apart(&as, g->roots) > apart)
+        if (g->factor == 1.0 || taut_ring_apart(&as, g->roots) > apart) {
+            taut_ring_roots(g->search, &g->at, g->factor, g->roots);
             return true;
+        }
     }
     return false;
 }

@@ -87,10 +87,10 @@ strum_status taut_solve_muller(taut_solve *s)
         found[known++] = root;
         const cplx wanted = CMPLX(-certain[i].decay, certain[i].frequency);
         out->hopped += cabs(root - wanted) > TAUT_SAME * taut_solve_scale(s, wanted);
-        status = taut_roots_add(
-            s->out,
-            (strum_taut_root){certain[i].mode, cimag(root), fmax(-creal(root), 0.0), INFINITY},
-            false, s->fault);
+        status = taut_roots_add(s->out,
+                                (strum_taut_root){certain[i].mode, cimag(root),
+                                                  fmax(-creal(root), 0.0), INFINITY, 0.0},
+                                false, s->fault);
     }
     for (size_t i = 0; i < count; i++) {
         const cplx wanted = CMPLX(-certain[i].decay, certain[i].frequency);

@@ -201,8 +201,8 @@ static strum_status give_all(places *p, size_t *order)
     size_t count = 0;
     strum_status status = STRUM_OK;
     for (long k = q->first; k <= p->rigid && k <= last && status == STRUM_OK; k++)
-        status =
-            taut_roots_add(s->out, (strum_taut_root){k, 0.0, 0.0, INFINITY}, false, s->fault);
+        status = taut_roots_add(s->out, (strum_taut_root){k, 0.0, 0.0, INFINITY, 0.0}, false,
+                                s->fault);
     for (size_t i = 0; i < s->known; i++) {
         if (!(cimag(s->s[i]) > p->low) || !(cimag(s->s[i]) <= p->high) ||
             -creal(s->s[i]) > p->decay)

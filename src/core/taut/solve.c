@@ -39,7 +39,7 @@ static strum_status undamped(taut_solve *s, const long *numbers, size_t count)
         out->evaluations += 3;
         out->expected++;
         out->found += below.count < numbers[i] && numbers[i] <= above.count;
-        status = taut_roots_add(s->out, (strum_taut_root){numbers[i], w[i], 0.0, INFINITY},
+        status = taut_roots_add(s->out, (strum_taut_root){numbers[i], w[i], 0.0, INFINITY, 0.0},
                                 false, s->fault);
         if (status == STRUM_OK &&
             work_spend(&s->search.work, 3 * taut_shot_us(chain)) != STRUM_OK)

@@ -51,7 +51,7 @@ strum_status taut_solve_note_missing(taut_solve *s, long first, long last);
 /* ---- groups of modes that coincide without damping (groups.c) ---- */
 
 /* Modes nearer to each other than this share of the spacing make a group. */
-#define TAUT_GROUP 3e-3
+#define TAUT_GROUP 2e-2
 /* Modes nearer than this share of their frequency cannot be followed one by one. */
 #define TAUT_TWINS 1e-5
 

@@ -75,6 +75,7 @@ typedef struct taut_search {
     work work;
     double spacing; /* typical distance of modes, rad/s */
     long evaluations;
+    int steps_max;       /* of one branch; 0: as many as it may take */
     strum_status status; /* of the first failure; searches end early when not STRUM_OK */
 } taut_search;
 
@@ -143,8 +144,13 @@ typedef struct taut_ring {
 /* False where a root lies too near the circle, or more than TAUT_CLUSTER_MAX within it. */
 bool taut_ring_make(taut_search *search, cplx centre, double radius, double factor,
                     taut_ring *ring);
+/* The same by half as many points, for roots well within. */
+bool taut_ring_glance(taut_search *search, cplx centre, double radius, double factor,
+                      taut_ring *ring);
 /* Its roots (`count` of them), by frequency, then decay. */
 void taut_ring_roots(taut_search *search, const taut_ring *ring, double factor, cplx *roots);
+/* The same from the power sums alone: to the count-th root of rounding, in radii. */
+void taut_ring_rough(const taut_ring *ring, cplx *roots);
 /* The smallest distance of two of them. */
 double taut_ring_apart(const taut_ring *ring, const cplx *roots);
 

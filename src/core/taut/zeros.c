@@ -128,7 +128,16 @@ static bool deflated_newton(taut_search *search, cplx *s, const cplx *roots, siz
             return true;
     }
     /* beside its twin, a nearly double root is known to half its digits only */
-    return size <= 1e-6 * (cabs(*s) + 1e-3 * search->spacing);
+    return size <= 1e-7 * (cabs(*s) + 1e-3 * search->spacing);
+}
+
+/* Is a root of F near? */
+static bool is_root(taut_search *search, cplx s, double scale)
+{
+    const taut_value there = taut_search_value(search, s);
+    /* where F is hardly more than rounding its zero is nowhere nearer */
+    return there.f == 0.0 || cabs(over(there.f, there.d)) <= 1e-7 * scale ||
+           taut_noise(search, s, 1.0) > 0.03;
 }
 
 /* From one start; true when a new root was added. */
@@ -139,6 +148,8 @@ static bool try_start(taut_search *search, const taut_rectangle *box, cplx s, cp
         return false;
     cplx polished = s;
     const double scale = cabs(s) + 1e-3 * search->spacing;
+    if (!is_root(search, s, scale))
+        return false; /* where the slopes of F and of the known roots cancel */
     /* One of a nearly double root: polishing leads to its twin. */
     if (taut_newton(search, &polished) && cabs(polished - s) < 1e-4 * scale &&
         !taut_known(roots, *known, polished, 1e-9 * scale))
@@ -147,6 +158,8 @@ static bool try_start(taut_search *search, const taut_rectangle *box, cplx s, cp
     if (fabs(cimag(s)) < 1e-7 * scale && taut_newton(search, &real) &&
         cabs(real - s) < 1e-6 * scale)
         s = real;
+    if (fabs(cimag(s)) <= 1e-13 * scale)
+        s = creal(s);
     if (cimag(s) < 0.0)
         s = conj(s);
     if (!taut_inside(box, s) || taut_known(roots, *known, s, 1e-14 * scale))
@@ -179,9 +192,14 @@ static void find_by_ring(taut_search *search, const taut_rectangle *box, cplx *r
             if (next >= 0)
                 taken[next] = true;
         }
-    for (int k = 0; k < ring.count && *known < room; k++)
-        if (!taken[k] && cimag(found[k]) >= 0.0 && taut_inside(box, found[k]))
+    for (int k = 0; k < ring.count && *known < room; k++) {
+        const double scale = cabs(found[k]) + 1e-3 * search->spacing;
+        if (fabs(cimag(found[k])) <= 1e-13 * scale)
+            found[k] = creal(found[k]);
+        if (!taken[k] && cimag(found[k]) >= 0.0 && taut_inside(box, found[k]) &&
+            is_root(search, found[k], scale))
             roots[(*known)++] = found[k];
+    }
 }
 
 static void find(taut_search *search, const taut_rectangle *box, long expected, cplx *roots,

@@ -64,6 +64,8 @@ static void write_search(json_writer *json, const absorber_request *r,
     json_open_object(json);
     json_put_flag(json, "complete", best->complete);
     json_put_integer(json, "starts", best->starts);
+    if (r->modes.count == 0)
+        json_put_number(json, "max_decay_per_s", STRUM_ABSORBER_DECAY * r->band[1]);
     json_key(json, "local_optima");
     json_open_array(json);
     for (int i = 0; i < best->optima_count; i++) {

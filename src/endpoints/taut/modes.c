@@ -10,6 +10,8 @@
 #define SHAPE_POINTS_MAX 2000
 /* Nodes of one answer: an upper bound from the mode numbers. */
 #define NODES_MAX 200000
+/* Roots of damped chains hold to this, relative, or the answer says to what. */
+#define DIGITS_HELD 1e-10
 /* The band of a chain with more of these is not counted beforehand. */
 #define VARYING_COUNTED_MAX 20
 
@@ -269,6 +271,12 @@ static strum_status write_shape(json_writer *json, const request *r, bool damped
     return status;
 }
 
+/* There half the digits are all there are, and the answer says so anyway. */
+static bool at_coalescence(const strum_taut_root *root)
+{
+    return root->exceptional < CHAIN_EXCEPTIONAL;
+}
+
 static strum_status write_mode(const request *r, const strum_taut_root *root, answer *a,
                                strum_error *fault)
 {
@@ -281,6 +289,8 @@ static strum_status write_mode(const request *r, const strum_taut_root *root, an
     chain_write_root(json, root);
     if (root->mode == 0)
         json_put_flag(json, "unnumbered", true);
+    if (root->error > DIGITS_HELD && !at_coalescence(root))
+        json_put_number(json, "relative_error", root->error);
     if (root->frequency > 0.0 && ((r->nodes && !damped) || r->shape_points > 0))
         status = strum_taut_shape_make(r->chain, root, &options, &shape, fault);
     if (status == STRUM_OK && shape != NULL && r->nodes && !damped)
@@ -374,9 +384,30 @@ static void warn_of_numbers(const strum_taut_roots *roots, answer *a)
         answer_warn(a, "roots without a number lie on no branch from zero damping");
 }
 
+/* Roots that rounding moves further than is promised. */
+static void warn_of_digits(const strum_taut_roots *roots, answer *a)
+{
+    const strum_taut_root *worst = NULL;
+    size_t count = 0;
+    for (size_t i = 0; i < roots->count; i++) {
+        const strum_taut_root *root = &roots->roots[i];
+        if (!(root->error > DIGITS_HELD) || at_coalescence(root))
+            continue;
+        count++;
+        worst = worst == NULL || root->error > worst->error ? root : worst;
+    }
+    if (worst != NULL)
+        answer_warn(a,
+                    "%zu roots are not known to ten digits, the least at %.6g rad/s with about "
+                    "%.0f (relative_error): a damper nearly matches its cable, and rounding "
+                    "of their difference moves the roots",
+                    count, worst->frequency, fmax(0.0, floor(-log10(worst->error))));
+}
+
 static void warn(const request *r, const strum_taut_roots *roots, answer *a)
 {
     warn_of_numbers(roots, a);
+    warn_of_digits(roots, a);
     if (roots->hidden_beyond)
         answer_warn(a,
                     "a damper matches its cable: beyond a decay of %.6g 1/s rounding hides "

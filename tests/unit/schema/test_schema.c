@@ -370,6 +370,8 @@ static void query_is_the_same_request(void **state)
                                 {"plane", "both"},
                                 {"modes", "6"}},
                  5, "{\"chi\": [-1, 0, 2.5], \"verify\": true, \"sag_parameter\": 0.5}");
+    expect_query((query_pair[]){{"verify", "True"}, {"sag_parameter", "0.5"}}, 2,
+                 "{\"verify\": true, \"sag_parameter\": 0.5}");
     /* a list may be named again: it goes on */
     expect_query(
         (query_pair[]){

@@ -377,7 +377,7 @@ static void a_conjugate_is_no_other_root(void **state)
     strum_taut_roots *full = roots_of(chain, 0, 1.5, 11.0, 22.0), *roots;
     assert_int_equal(full->count, 2);
     const strum_taut_root guesses[2] = {
-        full->roots[0], {0, -full->roots[0].frequency, full->roots[0].decay, INFINITY}};
+        full->roots[0], {0, -full->roots[0].frequency, full->roots[0].decay, INFINITY, 0.0}};
     const strum_taut_query query = {.lowest = 1.5,
                                     .highest = 11.0,
                                     .max_decay = 22.0,

@@ -277,7 +277,7 @@ static void three_hundred_and_eighty_masses(void **state)
         strum_taut_shape *shape;
         const double *nodes;
         const strum_taut_antinode *antinodes;
-        const strum_taut_root root = {k + 1, w[k], 0.0, INFINITY};
+        const strum_taut_root root = {k + 1, w[k], 0.0, INFINITY, 0.0};
         assert_int_equal(strum_taut_shape_make(chain, &root, NULL, &shape, NULL), STRUM_OK);
         assert_int_equal(strum_taut_shape_nodes(shape, &nodes), k);
         assert_int_equal(strum_taut_shape_antinodes(shape, &antinodes), k + 1);
@@ -358,7 +358,7 @@ static void check_shape(const strum_taut *chain, long mode, const double *nodes,
                         size_t node_count, const strum_taut_antinode *antinodes,
                         size_t antinode_count)
 {
-    const strum_taut_root root = {mode, frequency_of(chain, mode), 0.0, INFINITY};
+    const strum_taut_root root = {mode, frequency_of(chain, mode), 0.0, INFINITY, 0.0};
     strum_taut_shape *shape;
     const double *got;
     const strum_taut_antinode *tops;
@@ -419,7 +419,7 @@ static void shapes_satisfy_the_equations(void **state)
     strum_taut *chain = chain_of(parts, 5, STRUM_TAUT_FIXED, STRUM_TAUT_FREE);
     assert_true(strum_taut_length(chain) == 29.8);
     for (long mode = 1; mode <= 12; mode++) {
-        const strum_taut_root root = {mode, frequency_of(chain, mode), 0.0, INFINITY};
+        const strum_taut_root root = {mode, frequency_of(chain, mode), 0.0, INFINITY, 0.0};
         strum_taut_shape *shape;
         strum_taut_point p[2981];
         assert_int_equal(strum_taut_shape_make(chain, &root, NULL, &shape, NULL), STRUM_OK);
