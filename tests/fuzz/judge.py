@@ -21,7 +21,8 @@ BOUNDS = {
 }
 SIZES = {
     "minItems": (list, lambda v, bound: len(v) >= bound), "maxItems": (list, lambda v, bound: len(v) <= bound),
-    "maxLength": (str, lambda v, bound: len(v) <= bound), "minProperties": (dict, lambda v, bound: len(v) >= bound),
+    "maxLength": (str, lambda v, bound: len(v) <= bound), "minLength": (str, lambda v, bound: len(v) >= bound),
+    "minProperties": (dict, lambda v, bound: len(v) >= bound),
 }
 
 
