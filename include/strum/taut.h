@@ -121,7 +121,8 @@ typedef struct strum_taut_support {
 
 typedef struct strum_taut_component {
     strum_taut_kind kind;
-    double tension_left, tension_right; /* N, > 0; not read for HANGING and GROUND */
+    /* N, > 0 (of a support one may be 0); not read for HANGING and GROUND */
+    double tension_left, tension_right;
     union {
         strum_taut_cable cable;
         strum_taut_varying varying;

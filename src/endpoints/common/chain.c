@@ -127,7 +127,11 @@ static const field inerter_fields[] = {
     NUMBER(chain_part, inertance_kg, "kg", 1e12, GIVEN, "force per acceleration"), PART_END};
 static const field support_fields[] = {
     LENGTH, NUMBER(chain_part, pivot_m, "m", 1e7, POSITIVE, "pivot from the left end"),
-    NUMBER(chain_part, inertia_kg_m2, "kg m^2", 1e15, GIVEN, "about the pivot"), TENSIONS,
+    NUMBER(chain_part, inertia_kg_m2, "kg m^2", 1e15, GIVEN, "about the pivot"), TENSION,
+    NUMBER(chain_part, tension_left_N, "N", 1e12, 0,
+           "tension at the left end; 0: the chain begins with it"),
+    NUMBER(chain_part, tension_right_N, "N", 1e12, 0,
+           "tension at the right end; 0: the chain ends with it"),
     PART_END};
 
 #define TABLE(name, fields, groups)                                                            \

@@ -62,6 +62,9 @@ static const taut_model support_model = {
 
 static const char *support_fault(const strum_taut_component *g)
 {
+    if (!taut_not_negative(g->tension_left) || !taut_not_negative(g->tension_right) ||
+        !(g->tension_left + g->tension_right > 0.0))
+        return "the tensions cannot be negative, and one of them is positive";
     return taut_positive(g->support.pivot) &&
                    taut_positive(g->support.length - g->support.pivot) &&
                    taut_not_negative(g->support.inertia)
@@ -83,4 +86,5 @@ static strum_status support_make(const strum_taut_component *g, taut_component *
     return STRUM_OK;
 }
 
-const taut_kind taut_support_kind = {true, support_fault, support_make};
+/* Its own check of the tensions: an end support has none on its outer side. */
+const taut_kind taut_support_kind = {false, support_fault, support_make};
