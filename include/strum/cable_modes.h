@@ -18,7 +18,7 @@
  *     strum_cable_modes_params params = STRUM_CABLE_MODES_PARAMS_INIT;
  *     strum_cable_modes *modes = NULL;
  *     strum_cable_mode mode;
- *     if (strum_cable_modes_solve(cable, &params, NULL, &modes, NULL) == STRUM_OK)
+ *     if (strum_cable_modes_solve(hanging, &params, NULL, &modes, NULL) == STRUM_OK)
  *         for (size_t i = 0; i < strum_cable_modes_count(modes); i++)
  *             if (strum_cable_modes_get(modes, i, &mode) == STRUM_OK)
  *                 printf("%g\n", mode.frequency);

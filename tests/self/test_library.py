@@ -95,6 +95,7 @@ GIVEN = """
 #include <stdio.h>
 extern strum_catenary catenary;
 extern strum_cable cable;
+extern strum_hanging *hanging;
 extern strum_modes_params params;
 extern strum_modes *modes;
 extern strum_status status;
@@ -179,7 +180,7 @@ def check_frequencies(printed):
 def check_chain(printed):
     """README's figures solve the closed form of a string with an absorber at its middle, and are what is printed."""
     shown = re.findall(r'"frequency_Hz": ([\d.]+), "damping_ratio": ([\d.]+)', (ROOT / "README.md").read_text())
-    assert len(printed) == len(shown) == 2
+    assert len(printed) == 2 and len(shown) >= 2  # further questions follow in README.md
     for (_, hertz, ratio), readme in zip(printed, shown):
         assert (hertz, ratio) == (pytest.approx(float(readme[0]), rel=1e-10), pytest.approx(float(readme[1]), rel=1e-10))
         w = 2 * math.pi * hertz * complex(1, ratio / math.sqrt(1 - ratio * ratio))
