@@ -12,7 +12,7 @@ import re
 
 # How often an endpoint is asked. The search for an absorber is the costly one; cases are known and few.
 WEIGHTS = {"/v1/catenary/frequencies": 28, "/v1/forced/tension": 14, "/v1/inclined/modes": 24, "/v1/taut/modes": 22,
-           "/v1/cable/statics": 10, "/v1/cable/modes": 16, "/v1/taut/matrix": 11, "/v1/absorber/optimize": .6,
+           "/v1/cable/statics": 10, "/v1/cable/modes": 1.5, "/v1/taut/matrix": 11, "/v1/absorber/optimize": .6,
            "/v1/identify/tension": 10, "/v1/validation": .1}
 EXTREMES = [0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1e-308, 1e-300, 1e-160, 1e-16, 1 - 2 ** -53, 1.0, 1 + 2 ** -52,
             2.0 ** 31, 2.0 ** 53, 1e16, 1e155, 1e300, 1e308, 1.7976931348623157e308]
@@ -299,6 +299,11 @@ class Tidy:
     def variables(self, request):
         request["max_evaluations"] = min(request.get("max_evaluations", 100), 150)
         request.pop("time_limit_s", None)  # what it cuts short is another answer each time
+        if "variables" not in request:  # an assessment of the chain as it is
+            request.pop("sweep", None)
+            for part in request["components"]:
+                part.update({field: 1.0 for field, value in part.items() if isinstance(value, dict) and "variable" in value})
+            return
         names = [f"v{i}" for i in range(len(request["variables"]))]
         numbers = [(part, field) for part in request["components"] for field, value in part.items()
                    if isinstance(value, (int, float)) and not isinstance(value, bool)]
@@ -394,7 +399,7 @@ class Ease:
 
     def band(self, request, name):
         """By how many modes lie below its top: the phase along the cables over pi."""
-        phase = sum(part["length_m"] * math.sqrt(part["mass_kg_per_m"] / (part.get("tension_N") or request["tension_N"]))
+        phase = sum(part["length_m"] * math.sqrt(abs(part["mass_kg_per_m"]) / max(abs(part.get("tension_N") or request["tension_N"]), 1e-300))
                     for part in request["components"]
                     if all(isinstance(part.get(field, 1), (int, float)) for field in ("length_m", "mass_kg_per_m", "tension_N"))
                     and "length_m" in part and "mass_kg_per_m" in part and isinstance(request["tension_N"], (int, float)))

@@ -57,10 +57,11 @@ class Judge:
         """The function (value, place) -> fault or "" of a schema."""
         known = self.compiled.get(id(schema))
         if known is None:
-            # a schema that refers to itself finds this while it is being compiled
-            self.compiled[id(schema)] = lambda value, place: self.compiled[id(schema)](value, place)
-            known = self.compiled[id(schema)] = self.compile(schema)
-        return known
+            # a schema that refers to itself finds this while it is being compiled; the schema is kept, so that no
+            # other one gets its id
+            self.compiled[id(schema)] = (lambda value, place: self.compiled[id(schema)][0](value, place)), schema
+            known = self.compiled[id(schema)] = self.compile(schema), schema
+        return known[0]
 
     def compile(self, schema):
         if schema is True:
@@ -92,6 +93,7 @@ class Judge:
             "type": self.type, "enum": self.enum, "const": lambda c, _: self.enum([c], _), "pattern": self.pattern,
             "items": self.items, "properties": self.properties, "required": self.required,
             "additionalProperties": self.additional, "dependentRequired": self.dependent, "$ref": self.reference,
+            "uniqueItems": self.unique, "not": self.none_of,
             "allOf": self.all_of, "oneOf": lambda parts, _: self.some_of(parts, {1}),
             "anyOf": lambda parts, _: self.some_of(parts, set(range(1, len(parts) + 1))),
         }
@@ -116,6 +118,17 @@ class Judge:
     def pattern(text, _):
         match = re.compile(text).search
         return lambda v, place: f"{place}: {v!r:.80} is not {text}" if isinstance(v, str) and not match(v) else ""
+
+    @staticmethod
+    def unique(wanted, _):
+        def check(value, place):
+            twice = wanted and isinstance(value, list) and any(same(a, b) for i, a in enumerate(value) for b in value[:i])
+            return f"{place}: an item twice" if twice else ""
+        return check
+
+    def none_of(self, schema, _):
+        inner = self.check(schema)
+        return lambda value, place: "" if inner(value, place) else f"{place}: is what it must not be"
 
     def items(self, schema, _):
         inner = self.check(schema)

@@ -254,7 +254,7 @@ def written_out(parts):
             if k and "spacing_m" in repeat:
                 chain.append({**beside[0], "length_m": repeat["spacing_m"]})
                 chain[-1].pop("repeat", None)
-            chain += written_out(one["components"]) if one["type"] == "group" else [one]
+            chain += written_out(one["components"]) if one["type"] == "group" else [copy.deepcopy(one)]
     return chain
 
 
@@ -293,6 +293,11 @@ class Mirrored(Law):
         for low, high in (("xi_1", "xi_2"), ("chi_1", "chi_2")):
             if low in turned:
                 turned[low], turned[high] = -turned[high], -turned[low]
+        for sign, one, other in ((-1, "angle_end_1_deg", "angle_end_2_deg"), (1, "tension_end_1_N", "tension_end_2_N")):
+            ends = {other: turned.pop(one, None), one: turned.pop(other, None)}
+            turned.update({name: sign * value for name, value in ends.items() if value is not None})
+        if "depth_below_end_1_m" in turned:  # below the other end now
+            turned["depth_below_end_1_m"] += answer["request"].get("rise_m", 0)
         return turned
 
     def fault(self, first, second):

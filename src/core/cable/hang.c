@@ -146,6 +146,20 @@ static strum_status first_state(cable_settler *s, strum_error *error)
     return status == STRUM_OK && settle_bends(cable) ? rod_ends_find(s, error) : status;
 }
 
+/* Whether the figures that every cable has are numbers. */
+static bool is_finite(const strum_cable_statics *s)
+{
+    const double all[] = {
+        s->horizontal_end_1, s->vertical_end_1, s->horizontal_end_2, s->vertical_end_2,
+        s->tension_min,      s->tension_max,    s->length,           s->angle_end_1,
+        s->angle_end_2,      s->lowest.x,       s->lowest.z,         s->highest.x,
+        s->highest.z,        s->moment_end_1,   s->moment_end_2,     s->closure};
+    bool finite = true;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        finite = finite && isfinite(all[i]);
+    return finite;
+}
+
 static strum_status hang(const strum_cable_params *p, strum_hanging *cable, work *w,
                          strum_error *error)
 {
@@ -169,7 +183,13 @@ static strum_status hang(const strum_cable_params *p, strum_hanging *cable, work
     if (status != STRUM_OK)
         return status;
     cable->params.span = s.span;
-    return settle_keep(&s, error);
+    status = settle_keep(&s, error);
+    if (status != STRUM_OK || is_finite(&cable->statics))
+        return status;
+    return error_set(error, STRUM_ERR_ACCURACY,
+                     "the shape was not found in double precision: its sections are too "
+                     "unlike, or its bending stiffness is next to none (statics flexible has "
+                     "none)");
 }
 
 strum_status strum_cable_hang(const strum_cable_params *params, const strum_options *options,

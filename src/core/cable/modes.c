@@ -49,6 +49,31 @@ static double least_tension(const strum_hanging *cable)
     return most > 0 ? least / most : HUGE_VAL;
 }
 
+/* Less mass than this, on average, is none: frequencies would be beyond all bounds. */
+#define MASS_LEAST 1e-12
+
+static double mass_per_length(const strum_hanging *cable)
+{
+    double mass = 0, length = 0;
+    for (size_t i = 0; i < cable->piece_count; i++) {
+        const strum_cable_section *s = cable->pieces[i].section;
+        mass += cable->pieces[i].length * (s->mass + s->added_mass);
+        length += cable->pieces[i].length;
+    }
+    for (size_t i = 0; i < cable->params.attachment_count; i++)
+        mass += cable->attachments[i].mass + cable->attachments[i].inertance;
+    return mass / length;
+}
+
+/* What pulls at a hanger's foot, half of its own weight included. */
+static double hanger_pull(const strum_hanging *cable)
+{
+    const cable_piece *first = cable->pieces, *last = first + cable->piece_count - 1;
+    const double standard_gravity = 9.80665;
+    return last->v + last->section->weight * last->length - first->v +
+           cable->params.hanger_mass * standard_gravity / 2;
+}
+
 static strum_status check_shape(const strum_hanging *cable, const strum_cable_modes_params *p,
                                 strum_error *error)
 {
@@ -59,6 +84,12 @@ static strum_status check_shape(const strum_hanging *cable, const strum_cable_mo
         return error_set(error, STRUM_ERR_METHOD,
                          "modes of several spans need the static shape without bending "
                          "stiffness (statics flexible)");
+    if (cable->params.spans > 1 && !(hanger_pull(cable) > 0))
+        return error_set(error, STRUM_ERR_IMPOSSIBLE,
+                         "buoyant spans push their hangers up: such a row is not stable");
+    if (!(mass_per_length(cable) > MASS_LEAST))
+        return error_set(error, STRUM_ERR_IMPOSSIBLE,
+                         "nothing of the cable has mass, so that nothing of it oscillates");
     if (!hangs && p->contact == STRUM_CABLE_HELD)
         return error_set(error, STRUM_ERR_IMPOSSIBLE,
                          "all of the cable lies on the bed and is held: nothing moves");
@@ -178,6 +209,10 @@ strum_status strum_cable_modes_solve(const strum_hanging *cable,
         if (status == STRUM_ERR_IMPOSSIBLE)
             return error_set(error, status,
                              "the static shape is not stable, or nothing of the cable moves");
+        if (status == STRUM_ERR_INTERNAL && w.status == STRUM_OK)
+            return error_set(error, STRUM_ERR_ACCURACY,
+                             "stiffness and mass of this cable are too far apart, or its shape "
+                             "is too near to being unstable, for its modes to be found");
         return work_result(&w, status, error);
     }
     *modes = made;

@@ -367,11 +367,13 @@ static strum_status section_tensions(const hung_input *in, const strum_hanging *
     return status;
 }
 
-/* xi = L sqrt(T/EI), L the whole unstretched length, T where the section begins. */
+/* xi = L sqrt(T/EI), L the whole unstretched length, T where the section begins: 0 where a clamp
+ * bends a rod so that it is compressed there. */
 static double xi_of(const strum_cable_section *section, double tension, double length)
 {
-    return section->bending_stiffness > 0 ? length * sqrt(tension / section->bending_stiffness)
-                                          : INFINITY;
+    return section->bending_stiffness > 0
+               ? length * sqrt(fmax(tension, 0) / section->bending_stiffness)
+               : INFINITY;
 }
 
 static strum_status write_groups(const hung_input *in, const strum_hanging *cable,

@@ -217,7 +217,7 @@ static void check_part(const object_item *item, const char *where, problem *p)
 void chain_prepare(chain_input *in, schema_arena *arena, problem *p)
 {
     const object_item *items = in->components.items;
-    char pointer[64];
+    char pointer[96];
     for (size_t i = 0; i < in->components.count; i++) {
         const objects_value *inner = &((const chain_part *)items[i].object)->components;
         (void)snprintf(pointer, sizeof pointer, "/components/%zu", i);

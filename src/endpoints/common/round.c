@@ -24,6 +24,10 @@ static void check_diameter(const round_input *in, problem *p)
                     "needs diameter_m; or give added_mass_kg_per_m");
 }
 
+/* Of mass_kg_per_m wherever it is a field. */
+#define ROUND_MASS_LEAST 1e-9
+#define ROUND_MASS_MOST  1e6
+
 static void find_mass(const round_input *in, const round_masses *m, double area, problem *p)
 {
     const double mass = in->material_density * area;
@@ -33,6 +37,11 @@ static void find_mass(const round_input *in, const round_masses *m, double area,
     else if (!m->mass_given && !(mass > 0))
         problem_add(p, "/mass_kg_per_m",
                     "missing: diameter_m needs it, or material_density_kg_per_m3");
+    else if (!m->mass_given && !(mass >= ROUND_MASS_LEAST && mass <= ROUND_MASS_MOST))
+        problem_add(p, "/material_density_kg_per_m3",
+                    "makes a mass of %.4g kg/m with diameter_m; it must be at least %g and at "
+                    "most %g",
+                    mass, ROUND_MASS_LEAST, ROUND_MASS_MOST);
     else if (!m->mass_given)
         *m->mass = mass;
 }
