@@ -183,8 +183,9 @@ test('alternatives show their own fields only, and name what they need elsewhere
   assert.equal(await page.locator('[data-field="sag_parameter"]').isVisible(), true);
   await field(page, 'sag_parameter').fill('0.7');
   await page.locator('.figure-of .value', { hasText: 'g/a' }).first().waitFor();
-  await field(page, 'axial_stiffness_N').fill('');
   await choice.selectOption({ label: 'span, unstretched length' });
+  await page.locator('fieldset.group select:has(option:text-is("axial stiffness"))').first().selectOption({ label: 'axial stiffness' });
+  await field(page, 'axial_stiffness_N').fill('');
   assert.equal(await page.locator('[data-field="axial_stiffness_N"] .needed').isVisible(), true);
   await page.close();
   bed.noFaults();

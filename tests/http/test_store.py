@@ -144,6 +144,8 @@ def test_who_waits_for_the_same_is_told_the_same(start_strumd, redis):
 def test_a_batch_is_answered_from_the_store(start_strumd, redis):
     items = [item(costly(number)) for number in range(1, 9)]
     warm = start_strumd(*redis.flags, *ALL)
+    answers(post_batch(warm, items[:1]))  # finds out that the store is there: no worker waits for another that does
+    wait_metric(warm, "store_writes_total", 1)
     first = answers(post_batch(warm, items))
     wait_metric(warm, "store_writes_total", 8)
     cold = start_strumd(*redis.flags, *ALL)
