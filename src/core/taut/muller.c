@@ -97,7 +97,8 @@ strum_status taut_solve_muller(taut_solve *s)
         out->missed +=
             !taut_known(found, known, wanted, TAUT_SAME * taut_solve_scale(s, wanted));
     }
-    out->found = out->expected - out->missed;
+    /* A number without an oscillating root was expected of nobody. */
+    out->found = out->expected > out->missed ? out->expected - out->missed : 0;
     free(found);
     free(certain);
     if (status == STRUM_OK && s->search.status != STRUM_OK)

@@ -187,6 +187,9 @@ static double solve_bytes(const void *data)
     return 2e6 + 4096 * parts + 48 * rows * rows;
 }
 
+/* Damped chains far from any cable can take minutes: a worker, whom a timeout ends, has each. */
+#define DAMPED_LEAST_US 300
+
 static double cost_us(const void *data)
 {
     const request *r = data;
@@ -200,7 +203,7 @@ static double cost_us(const void *data)
     double work = modes * (0.9 * (double)r->shape_points + (r->nodes ? 0.8 : 0)) +
                   (r->nodes ? 0.8 * nodes : 0);
     if (damped)
-        work += 140 + modes * (11 * parts + 290 * varying) +
+        work += DAMPED_LEAST_US + modes * (11 * parts + 290 * varying) +
                 (r->verify ? 2200 + 490 * modes * parts + 90 * nodes : 0);
     else
         work += 27 + modes * (0.8 * parts + 190 * varying) +
